@@ -1,0 +1,99 @@
+#pragma once
+
+#include "scan_image_slam/core/fusion/bearing_image.h"
+#include "scan_image_slam/core/fusion/edge_extraction.h"
+#include "scan_image_slam/core/fusion/fused_model.h"
+#include "scan_image_slam/core/fusion/scan_model.h"
+#include "scan_image_slam/core/fusion/surface_profile.h"
+#include "scan_image_slam/core/sensor/camera_model.h"
+#include "scan_image_slam/core/sensor/laser_scan.h"
+#include "scan_image_slam/core/sensor/odometry_buffer.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+
+namespace scan_image_slam {
+
+struct ScanImageFusionOptions {
+  ScanModelOptions scan;
+  EdgeExtractionOptions edges;
+  OdometryOptions odometry;
+  double max_image_age = 0.1;         ///< between the stamps of an image and of its scan [s]
+  double camera_time_offset = 0.0;    ///< added to the stamps of the images [s]
+  double edge_bearing_stddev = 0.25;  ///< of an edge's column, beside what its pixels scatter [px]
+  /// Throws std::invalid_argument, naming the field, if a value is out of range.
+  void Validate() const;
+};
+
+/// One picture of the camera.
+struct CameraImage {
+  Stamp stamp = 0;  ///< middle of the exposure [ns]
+  cv::Mat grey;     ///< CV_8U, of the size in the intrinsics
+};
+
+/// What the fusion saw in the last image, for pictures and tools.
+struct FusionEvidence {
+  CameraImage image;
+  SurfaceProfile profile;
+  RegionOfInterest region;
+  std::vector<ImageEdge> edges;  ///< in the bearing image
+};
+
+/// The first stage of the system: fuses a scan with the image nearest to it (section 2.1 of the
+/// paper).
+class ScanImageFusion {
+ public:
+  explicit ScanImageFusion(const ScanImageFusionOptions& options);
+
+  /// Encoder readings, in any rate; see OdometryBuffer.
+  OdometryBuffer::Result AddOdometry(Stamp stamp, const Pose2& odom_from_base) {
+    return odometry_.Add(stamp, odom_from_base);
+  }
+  const OdometryBuffer& odometry() const { return odometry_; }
+
+  void SetLaser(const LaserMount& mount) { laser_ = mount; }
+  /// Throws std::invalid_argument if the camera can't be used; see CameraModel and BearingImage.
+  void SetCamera(const CameraIntrinsics& intrinsics, const Eigen::Isometry3d& base_from_camera);
+  bool has_camera() const { return bearing_image_ != nullptr; }
+
+  /// Hands over the newest image; the next scan near it in time uses it, once. Throws
+  /// std::invalid_argument if its size is not that of the camera's intrinsics.
+  void AddImage(const CameraImage& image);
+
+  /// Makes the model of a scan.
+  FusedModel Fuse(const LaserScan& scan);
+
+  /// Of the last model with an image; empty image if there was none.
+  const FusionEvidence& evidence() const { return evidence_; }
+  /// Null without a camera.
+  const BearingImage* bearing_image() const { return bearing_image_.get(); }
+  /// Where the camera sees the hits of a model, one pixel for each beam; (-1, -1): not in view.
+  std::vector<cv::Point2f> BeamPixels(const FusedModel& model) const;
+
+  /// Forgets readings and images (time went back); the mounts stay.
+  void Reset();
+
+ private:
+  Velocity2 SweepVelocity(const LaserScan& scan) const;
+  void FuseImage(const CameraImage& image, FusedModel* model);
+  Pose2 ScanFromImage(Stamp scan, Stamp image) const;
+  std::vector<Eigen::Vector2d> PointsAtImage(const FusedModel& model, Stamp image) const;
+  std::optional<ModelEdge> ToModelEdge(const ImageEdge& edge, const FusedModel& model,
+                                       const std::vector<Eigen::Vector2d>& points, Stamp image,
+                                       int beam) const;
+
+  ScanImageFusionOptions options_;
+  OdometryBuffer odometry_;
+  LaserMount laser_;
+  std::unique_ptr<CameraModel> camera_;
+  std::unique_ptr<BearingImage> bearing_image_;
+  Eigen::Isometry3d camera_from_base_ = Eigen::Isometry3d::Identity();
+  std::optional<CameraImage> pending_image_;
+  FusionEvidence evidence_;
+};
+
+}  // namespace scan_image_slam

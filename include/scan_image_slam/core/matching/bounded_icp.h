@@ -1,0 +1,61 @@
+#pragma once
+
+#include "scan_image_slam/core/fusion/fused_model.h"
+#include "scan_image_slam/core/matching/frame_matcher.h"
+#include "scan_image_slam/core/matching/local_map_matcher.h"
+#include "scan_image_slam/core/matching/matched_motion.h"
+#include "scan_image_slam/core/matching/motion_predictor.h"
+
+#include <optional>
+
+namespace scan_image_slam {
+
+/// What the scans are matched with.
+enum class Reference {
+  kPreviousFrame,  ///< the last model: the letter of the paper
+  kLocalMap,       ///< all that was seen: does not drift with every frame
+};
+
+struct BoundedIcpOptions {
+  Reference reference = Reference::kLocalMap;
+  MotionPredictorOptions prediction;
+  LocalMapMatcherOptions local_map_matcher;  ///< used with Reference::kLocalMap
+  FrameMatcherOptions frame_matcher;         ///< used with Reference::kPreviousFrame
+  double reference_distance = 0.5;  ///< motions are told from a scan at most so far back [m]
+  double reference_angle = 0.5;     ///< [rad]
+};
+
+/// The second stage of the system: the motion of the base between scans, within the bounds that the
+/// encoders leave (section 2.2 of the paper).
+class BoundedIcp {
+ public:
+  explicit BoundedIcp(const BoundedIcpOptions& options);
+
+  /// Encoder readings, in any rate; see OdometryBuffer.
+  OdometryBuffer::Result AddOdometry(Stamp stamp, const Pose2& odom_from_base) {
+    return predictor_.odometry().Add(stamp, odom_from_base);
+  }
+  const OdometryBuffer& odometry() const { return predictor_.odometry(); }
+
+  /// Matches the next model. Throws std::invalid_argument if its stamp is not later than the last.
+  MatchedMotion Match(const FusedModel& model);
+
+  /// Forgets everything: time went back, or the user asked for it.
+  void Reset() { *this = BoundedIcp(options_); }
+
+ private:
+  void ChooseReference(MatchedMotion* match);
+
+  BoundedIcpOptions options_;
+  MotionPredictor predictor_;
+  LocalMapMatcher local_map_matcher_;
+  FrameMatcher frame_matcher_;
+  std::optional<Stamp> last_stamp_;
+  Pose2 start_from_base_;
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
+  Stamp start_stamp_ = 0;
+  Stamp reference_stamp_ = 0;
+  Pose2 start_from_reference_;
+};
+
+}  // namespace scan_image_slam

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "scan_image_slam/core/matching/bounded_search.h"
+#include "scan_image_slam/core/matching/local_map.h"
+#include "scan_image_slam/core/matching/match_outcome.h"
+#include "scan_image_slam/core/matching/motion_predictor.h"
+#include "scan_image_slam/core/matching/refinement.h"
+#include "scan_image_slam/core/matching/surface.h"
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace scan_image_slam {
+
+struct LocalMapMatcherOptions {
+  SearchGrid grid;
+  double point_spacing = 0.2;  ///< between the points that the search looks at [m]
+  double max_distance = 0.2;   ///< most that one point adds to e [m]
+  RangeNoise noise;
+  SurfaceOptions surface;
+  LocalMapOptions local_map;
+  EdgeMapOptions edge_map;
+  RefinementOptions refinement;
+  double prior_kernel = 5.0;          ///< see MotionPrior [-]
+  double insert_distance = 0.05;      ///< from the last scan that entered the map [m]
+  double insert_angle = 0.05;         ///< [rad]
+  int insert_first = 20;              ///< scans at the start that enter the map in any case
+  double min_matched_fraction = 0.2;  ///< of the points of a scan, to enter it into the map [-]
+};
+
+/// Matches scans with everything seen so far: exhaustive search in the window, then refinement.
+class LocalMapMatcher {
+ public:
+  explicit LocalMapMatcher(const LocalMapMatcherOptions& options);
+
+  /// The first scan, which starts the map.
+  void Start(const FusedModel& model, const Pose2& map_from_base);
+
+  /// Finds the motion since `map_from_last`, and adds the scan to the map if the base has moved.
+  /// `covariance` is that of the pose before the motion.
+  MatchOutcome Match(const FusedModel& model, const Pose2& map_from_last,
+                     const Eigen::Matrix3d& covariance, const MotionPrediction& prediction);
+
+  const LocalMap& local_map() const { return local_map_; }
+  const EdgeMap& edge_map() const { return edge_map_; }
+
+ private:
+  SearchResult Search(const std::vector<SurfacePoint>& points, const Pose2& map_from_predicted,
+                      const MotionPrediction& prediction) const;
+  void InsertIfMoved(const std::vector<SurfacePoint>& points, const Pose2& map_from_base);
+
+  LocalMapMatcherOptions options_;
+  LocalMap local_map_;
+  EdgeMap edge_map_;
+  Pose2 map_from_inserted_;
+  int inserted_ = 0;
+};
+
+}  // namespace scan_image_slam

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "scan_image_slam/core/geometry/pose2.h"
+
+#include <Eigen/Core>
+
+namespace scan_image_slam {
+
+/// Where in the window the best motion lies, and the evidence for it.
+struct MatchOutcome {
+  ArcCoordinates deviation;                              ///< from the predicted motion
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (forward, left, turn) [m, m, rad]
+  Velocity2 sweep_correction;  ///< to be added to the velocity that the sweep was corrected with
+  double e = 0.0;      ///< eq. 4: mean distance between the models at the best candidate [m]
+  double rms = 0.0;    ///< residual after the refinement [m]
+  int candidates = 0;  ///< motions tried
+  int points = 0;      ///< points of the scan
+  int matched = 0;     ///< points that found a counterpart
+  bool on_window_edge = false;
+  bool degenerate = false;            ///< one direction was left to the prediction
+  double degenerate_direction = 0.0;  ///< in the base frame [rad]
+};
+
+}  // namespace scan_image_slam

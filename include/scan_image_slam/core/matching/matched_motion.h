@@ -1,0 +1,56 @@
+#pragma once
+
+#include "scan_image_slam/core/geometry/pose2.h"
+#include "scan_image_slam/core/matching/search_window.h"
+#include "scan_image_slam/core/sensor/stamp.h"
+
+#include <optional>
+
+#include <Eigen/Core>
+
+namespace scan_image_slam {
+
+/// What a pose rests on.
+enum class MatchMode {
+  kFull,        ///< laser, camera and encoders
+  kNoCamera,    ///< laser and encoders
+  kNoEncoders,  ///< laser and camera, constant velocity
+  kLaserOnly,   ///< laser, constant velocity
+  kCoasting,    ///< no laser: encoders alone, or constant velocity
+};
+
+/// What became of one match.
+enum class MatchStatus {
+  kFirst,         ///< nothing to match with yet
+  kMatched,       ///< the best motion lies inside the window
+  kOnWindowEdge,  ///< the best motion lies on the border: the encoders were more wrong than allowed
+  kDegenerate,    ///< matched, but one direction was left to the prediction
+  kTooFewPoints,  ///< the scan shows too little of the reference: the prediction was kept
+};
+
+/// The motion of the base from a reference scan to this one, and the evidence for it.
+struct MatchedMotion {
+  Stamp stamp = 0;             ///< time of this scan [ns]
+  Stamp start_stamp = 0;       ///< time of the first scan: another value is another chain [ns]
+  Stamp reference_stamp = 0;   ///< time of the reference scan [ns]
+  Pose2 start_from_reference;  ///< pose of the reference in the frame of the first scan
+  Pose2 motion;                ///< reference_from_base
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (forward, left, turn) of the pose
+                                                         ///< since the last scan [m, m, rad]
+  MatchMode mode = MatchMode::kNoCamera;
+  MatchStatus status = MatchStatus::kFirst;
+  SearchWindow window;       ///< D and Phi
+  ArcCoordinates deviation;  ///< of the result from the predicted motion
+  double e = 0.0;            ///< mean distance between the models at the best candidate [m]
+  double rms = 0.0;          ///< residual across the walls after refinement [m]
+  int candidates = 0;        ///< motions tried
+  int points = 0;            ///< hits of the scan
+  int matched = 0;           ///< hits that found a counterpart
+  double degenerate_direction = 0.0;    ///< in the base frame, if status is kDegenerate [rad]
+  Velocity2 sweep_correction;           ///< what the encoders were wrong by while the laser turned
+  std::optional<Pose2> odom_from_base;  ///< what the encoders say at the stamp
+
+  Pose2 start_from_base() const { return start_from_reference * motion; }
+};
+
+}  // namespace scan_image_slam

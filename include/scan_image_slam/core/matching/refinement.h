@@ -1,0 +1,58 @@
+#pragma once
+
+#include "scan_image_slam/core/geometry/pose2.h"
+#include "scan_image_slam/core/matching/edge_map.h"
+#include "scan_image_slam/core/matching/local_map.h"
+#include "scan_image_slam/core/matching/surface.h"
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace scan_image_slam {
+
+struct RefinementOptions {
+  int max_iterations = 8;
+  double gate = 0.1;               ///< farthest point from its element, across the wall [m]
+  double along_gate = 0.1;         ///< the same along the wall [m]
+  double model_stddev = 0.02;      ///< roughness and what else the map leaves out [m]
+  double kernel = 3.0;             ///< residuals of so many standard deviations count half [-]
+  double correlation = 10.0;       ///< points of a scan that err together, as if one [-]
+  double edge_correlation = 10.0;  ///< edges of successive images that err together, as if one [-]
+  double min_normal_cosine = 0.7;  ///< between the normals of a point and its element [-]
+  double degenerate_ratio =
+      0.03;  ///< of the eigenvalues; below, the weak direction is left out [-]
+  /// Throws std::invalid_argument, naming the field, if a value is out of range.
+  void Validate() const;
+};
+
+/// What is known of a pose before the scan is looked at. If the scan contradicts it by more than
+/// `kernel` standard deviations it loses weight: wheels slip.
+struct MotionPrior {
+  Pose2 map_from_base;
+  Eigen::Matrix3d covariance =
+      Eigen::Matrix3d::Identity();  ///< of (forward, left, turn) [m, m, rad]
+  double kernel = 5.0;              ///< [-]
+};
+
+struct Refinement {
+  Pose2 map_from_base;
+  Eigen::Matrix3d covariance =
+      Eigen::Matrix3d::Zero();  ///< of (forward, left, turn) in the base frame [m, m, rad]
+  Eigen::Matrix3d scan_information = Eigen::Matrix3d::Zero();  ///< of the scan alone
+  int matched = 0;                                             ///< points that found an element
+  int matched_edges = 0;                                       ///< edges that found a landmark
+  double rms = 0.0;                   ///< weighted residual across the walls [m]
+  bool degenerate = false;            ///< one direction was left to the prior
+  double degenerate_direction = 0.0;  ///< in the base frame [rad]
+};
+
+/// Refines a pose below the grid step: iterated least squares of the distances from the points to
+/// the lines of their elements (Chen and Medioni 1992), with a robust kernel, and the prior.
+/// An edge pulls the pose so that its line of sight meets its landmark.
+Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
+                  const std::vector<ModelEdge>& edges, const EdgeMap& edge_map,
+                  const RangeNoise& noise, const MotionPrior& prior, const Pose2& start,
+                  const RefinementOptions& options);
+
+}  // namespace scan_image_slam

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "scan_image_slam/core/sensor/odometry_buffer.h"
+#include "scan_image_slam/core/sensor/stamp.h"
+
+#include <deque>
+#include <optional>
+#include <utility>
+
+namespace scan_image_slam {
+
+/// Holds scans until the encoders have reached their stamp, but not for long: scans and encoders
+/// come by different ways, and neither order is wrong. Scans leave in the order in which they came.
+template <typename Item>
+class OdometryGate {
+ public:
+  /// `max_wait` [s]; of more than `max_items` waiting scans the oldest are dropped.
+  OdometryGate(double max_wait, std::size_t max_items)
+      : max_wait_(max_wait), max_items_(max_items) {}
+
+  /// `now` is any clock that goes on while messages arrive, e.g. the time of arrival [ns].
+  void Push(Item item, Stamp stamp, Stamp now) {
+    waiting_.push_back({std::move(item), stamp, now});
+    while (waiting_.size() > max_items_) {
+      waiting_.pop_front();
+      ++dropped_;
+    }
+  }
+
+  /// The next scan that need not wait any longer, if there is one.
+  std::optional<Item> Pop(Stamp now, const OdometryBuffer& odometry) {
+    if (waiting_.empty()) return std::nullopt;
+    const bool reached = !odometry.empty() && odometry.newest_stamp() >= waiting_.front().stamp;
+    const bool waited = Seconds(now - waiting_.front().arrival) >= max_wait_;
+    // Encoders that have let the last scan wait in vain, and have said nothing since, are silent.
+    const bool silent = silent_since_ && *silent_since_ == odometry.newest_stamp();
+    if (!reached && !waited && !silent) return std::nullopt;
+    silent_since_ = reached ? std::nullopt : std::optional<Stamp>(odometry.newest_stamp());
+    std::optional<Item> item(std::move(waiting_.front().item));
+    waiting_.pop_front();
+    return item;
+  }
+
+  std::size_t size() const { return waiting_.size(); }
+  int dropped() const { return dropped_; }
+  void Clear() {
+    waiting_.clear();
+    silent_since_.reset();
+  }
+
+ private:
+  struct Waiting {
+    Item item;
+    Stamp stamp;
+    Stamp arrival;
+  };
+  double max_wait_;
+  std::size_t max_items_;
+  std::deque<Waiting> waiting_;
+  std::optional<Stamp> silent_since_;
+  int dropped_ = 0;
+};
+
+}  // namespace scan_image_slam

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Geometry>
+#include <tf2/buffer_core.h>
+
+namespace scan_image_slam {
+
+/// Where a sensor is on the robot, or why that is not known.
+struct FrameLookup {
+  bool found = false;
+  Eigen::Isometry3d base_from_sensor = Eigen::Isometry3d::Identity();
+  std::string problem;  ///< names both frames, the frames there are, and the most similar one
+};
+
+/// The newest transform from a sensor's frame to the base; identity if they are the same frame.
+FrameLookup LookUpSensor(const tf2::BufferCore& tf, const std::string& base_frame,
+                         const std::string& sensor_frame);
+
+}  // namespace scan_image_slam

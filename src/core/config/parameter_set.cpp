@@ -1,0 +1,147 @@
+#include "scan_image_slam/core/config/parameter_set.h"
+
+#include "scan_image_slam/core/config/text_similarity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+namespace scan_image_slam {
+namespace {
+
+std::string TypeOf(const ParameterValue& value) {
+  constexpr const char* kNames[] = {"bool", "int", "double", "string"};
+  return kNames[value.index()];
+}
+
+std::string Join(const std::vector<std::string>& words) {
+  std::string joined;
+  for (const std::string& word : words) joined += (joined.empty() ? "" : ", ") + word;
+  return joined;
+}
+
+void CheckRange(const std::string& full_name, double value, const ParameterRange& range) {
+  if (std::isfinite(value) && value >= range.min && value <= range.max) return;
+  throw ParameterError(full_name + ": " + ToText(value) + " is out of range, allowed are " +
+                       ToText(range.min) + " to " + ToText(range.max));
+}
+
+}  // namespace
+
+std::string ToText(const ParameterValue& value) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  if (const bool* b = std::get_if<bool>(&value)) {
+    text << (*b ? "true" : "false");
+  } else if (const int* i = std::get_if<int>(&value)) {
+    text << *i;
+  } else if (const double* d = std::get_if<double>(&value)) {
+    text << std::setprecision(10) << *d;
+    const bool looks_whole = text.str().find_first_not_of("-0123456789") == std::string::npos;
+    if (looks_whole) text << ".0";
+  } else {
+    text << '"' << std::get<std::string>(value) << '"';
+  }
+  return text.str();
+}
+
+void ParameterSet::Add(const std::string& name, bool* target, const std::string& description) {
+  parameters_.push_back({name,
+                         "bool",
+                         "-",
+                         {},
+                         {},
+                         description,
+                         [target]() -> ParameterValue { return *target; },
+                         [target](const ParameterValue& v) { *target = std::get<bool>(v); }});
+}
+
+void ParameterSet::Add(const std::string& name, int* target, const std::string& unit,
+                       ParameterRange range, const std::string& description) {
+  parameters_.push_back({name,
+                         "int",
+                         unit,
+                         range,
+                         {},
+                         description,
+                         [target]() -> ParameterValue { return *target; },
+                         [target](const ParameterValue& v) { *target = std::get<int>(v); }});
+}
+
+void ParameterSet::Add(const std::string& name, double* target, const std::string& unit,
+                       ParameterRange range, const std::string& description) {
+  parameters_.push_back({name,
+                         "double",
+                         unit,
+                         range,
+                         {},
+                         description,
+                         [target]() -> ParameterValue { return *target; },
+                         [target](const ParameterValue& v) { *target = std::get<double>(v); }});
+}
+
+void ParameterSet::Add(const std::string& name, std::string* target,
+                       const std::string& description) {
+  parameters_.push_back(
+      {name,
+       "string",
+       "-",
+       {},
+       {},
+       description,
+       [target]() -> ParameterValue { return *target; },
+       [target](const ParameterValue& v) { *target = std::get<std::string>(v); }});
+}
+
+void ParameterSet::AddDegrees(const std::string& name, double* target_rad, ParameterRange range,
+                              const std::string& description) {
+  constexpr double kDegree = M_PI / 180.0;
+  parameters_.push_back(
+      {name,
+       "double",
+       "deg",
+       range,
+       {},
+       description,
+       // Rounded, so that a default of whole degrees is told as such.
+       [target_rad]() -> ParameterValue { return std::round(*target_rad / kDegree * 1e9) / 1e9; },
+       [target_rad](const ParameterValue& v) { *target_rad = std::get<double>(v) * kDegree; }});
+}
+
+const Parameter& ParameterSet::Find(const std::string& name) const {
+  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
+                                  [&](const Parameter& p) { return p.name == name; });
+  if (found != parameters_.end()) return *found;
+  std::vector<std::string> names;
+  for (const Parameter& p : parameters_) names.push_back(p.name);
+  throw ParameterError(node_ + "/" + name + ": unknown parameter" +
+                       (names.empty() ? "" : ", did you mean " + MostSimilar(name, names) + "?"));
+}
+
+void ParameterSet::Set(const std::string& name, const ParameterValue& value) {
+  const Parameter& p = Find(name);
+  const std::string full_name = node_ + "/" + name;
+  ParameterValue converted = value;
+  if (p.type == "double" && std::holds_alternative<int>(value)) {
+    converted = static_cast<double>(std::get<int>(value));
+  }
+  if (TypeOf(converted) != p.type) {
+    throw ParameterError(full_name + ": " + ToText(value) + " is of type " + TypeOf(value) +
+                         ", expected is " + p.type);
+  }
+  if (const int* i = std::get_if<int>(&converted)) CheckRange(full_name, *i, p.range);
+  if (const double* d = std::get_if<double>(&converted)) CheckRange(full_name, *d, p.range);
+  if (!p.choices.empty() && std::find(p.choices.begin(), p.choices.end(),
+                                      std::get<std::string>(converted)) == p.choices.end()) {
+    throw ParameterError(full_name + ": " + ToText(value) + " is not one of " + Join(p.choices));
+  }
+  p.set(converted);
+}
+
+void ParameterSet::Set(const std::map<std::string, ParameterValue>& values) {
+  for (const auto& [name, value] : values) Set(name, value);
+}
+
+}  // namespace scan_image_slam

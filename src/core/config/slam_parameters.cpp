@@ -1,0 +1,276 @@
+#include "scan_image_slam/core/config/slam_parameters.h"
+
+namespace scan_image_slam {
+namespace {
+
+constexpr ParameterRange kPositive{1e-9, 1e9};
+constexpr ParameterRange kNotNegative{0.0, 1e9};
+constexpr ParameterRange kAny{-1e9, 1e9};
+constexpr ParameterRange kFraction{0.0, 1.0};
+constexpr ParameterRange kAngle{-360.0, 360.0};
+
+void AddOdometryInput(OdometryInput* o, ParameterSet* set) {
+  set->Add("base_frame", &o->base_frame, "frame of the robot's base");
+  set->Add("odom_frame", &o->odom_frame, "frame of the encoders' dead reckoning");
+  set->AddChoice(
+      "odom_source", &o->source,
+      {{"auto", OdometrySource::kAuto},
+       {"topic", OdometrySource::kTopic},
+       {"tf", OdometrySource::kTf},
+       {"none", OdometrySource::kNone}},
+      "where the encoders are read: topic odom, transform odom_frame -> base_frame, auto "
+      "(TF while nothing comes on the topic), or none");
+  set->Add("odom_max_wait", &o->max_wait, "s", {0.0, 1.0},
+           "a scan waits so long for the encoders to reach its stamp; then they are extrapolated");
+}
+
+void AddOdometryLimits(OdometryOptions* o, ParameterSet* set) {
+  set->Add("odometry/max_speed", &o->max_speed, "m/s", kPositive,
+           "a faster step of the odometry is a reset of the odometry, not a motion");
+  set->Add("odometry/max_turn_rate", &o->max_turn_rate, "rad/s", kPositive,
+           "a faster turn of the odometry is a reset of the odometry, not a motion");
+  set->Add("odometry/max_extrapolation", &o->max_extrapolation, "s", kPositive,
+           "age of the newest reading up to which the encoders count as present");
+  set->Add("odometry/history", &o->history, "s", kPositive, "readings kept");
+}
+
+void AddSensorPose(const std::string& prefix, SensorPose* o, ParameterSet* set) {
+  set->Add(prefix + "/from_tf", &o->from_tf,
+           "take the pose on the base from TF; false: from the parameters below");
+  set->Add(prefix + "/x", &o->x, "m", kAny, "forward of base_frame");
+  set->Add(prefix + "/y", &o->y, "m", kAny, "left of base_frame");
+  set->Add(prefix + "/z", &o->z, "m", kAny, "above base_frame");
+  set->AddDegrees(prefix + "/roll_deg", &o->roll, kAngle, "about the forward axis");
+  set->AddDegrees(prefix + "/pitch_deg", &o->pitch, kAngle, "positive looks down");
+  set->AddDegrees(prefix + "/yaw_deg", &o->yaw, kAngle, "positive looks left");
+}
+
+void AddMotionBounds(MotionBounds* o, ParameterSet* set) {
+  set->Add("window/distance_per_distance", &o->distance_per_distance, "m/m", kNotNegative,
+           "D grows with the way driven: wheel radius and slip");
+  set->Add("window/distance_per_angle", &o->distance_per_angle, "m/rad", kNotNegative,
+           "D grows with the angle turned: slip");
+  set->Add("window/distance_per_time", &o->distance_per_time, "m/s", kNotNegative,
+           "D grows with the time between scans: wheels that spin or block, late stamps");
+  set->Add("window/min_distance", &o->min_distance, "m", kNotNegative, "floor of D");
+  set->Add("window/angle_per_angle", &o->angle_per_angle, "rad/rad", kNotNegative,
+           "Phi grows with the angle turned: wheel base and slip");
+  set->Add("window/angle_per_distance", &o->angle_per_distance, "rad/m", kNotNegative,
+           "Phi grows with the way driven: unequal wheels");
+  set->Add("window/angle_per_time", &o->angle_per_time, "rad/s", kNotNegative,
+           "Phi grows with the time between scans: wheels that spin or block, late stamps");
+  set->Add("window/min_angle", &o->min_angle, "rad", kNotNegative, "floor of Phi");
+  set->Add("window/lateral_per_distance", &o->lateral_per_distance, "-", kNotNegative,
+           "sideways bound of the refinement as a fraction of D; 0 for a pure arc");
+  set->Add("window/max_time", &o->max_time, "s", kNotNegative,
+           "longer gaps do not widen the window further");
+}
+
+void AddMotionNoise(MotionNoise* o, ParameterSet* set) {
+  set->Add("noise/distance_per_distance", &o->distance_per_distance, "m/m", kNotNegative,
+           "usual error of the encoders (one standard deviation) along the way");
+  set->Add("noise/distance_per_time", &o->distance_per_time, "m/s", kNotNegative,
+           "the same with the time between scans");
+  set->Add("noise/min_distance", &o->min_distance, "m", kPositive, "floor of that error");
+  set->Add("noise/lateral_fraction", &o->lateral_fraction, "-", kPositive,
+           "error sideways, as a fraction of that along the way");
+  set->Add("noise/angle_per_angle", &o->angle_per_angle, "rad/rad", kNotNegative,
+           "usual error of the encoders' heading with the angle turned");
+  set->Add("noise/angle_per_distance", &o->angle_per_distance, "rad/m", kNotNegative,
+           "the same with the way driven");
+  set->Add("noise/angle_per_time", &o->angle_per_time, "rad/s", kNotNegative,
+           "the same with the time between scans");
+  set->Add("noise/min_angle", &o->min_angle, "rad", kPositive, "floor of that error");
+}
+
+void AddSearchGrid(const std::string& prefix, SearchGrid* o, ParameterSet* set) {
+  set->Add(prefix + "/distance_step", &o->distance_step, "m", kPositive,
+           "grid step of the exhaustive search along the way");
+  set->Add(prefix + "/angle_step", &o->angle_step, "rad", kPositive,
+           "grid step of the exhaustive search in angle");
+  set->Add(prefix + "/deviation_cost", &o->deviation_cost, "m", kNotNegative,
+           "added to e per grid step away from the prediction: ties go to the encoders");
+}
+
+void AddLocalMapMatcher(LocalMapMatcherOptions* o, ParameterSet* set) {
+  AddSearchGrid("search", &o->grid, set);
+  set->Add("search/point_spacing", &o->point_spacing, "m", kPositive,
+           "between the points of the scan that the search looks at");
+  set->Add("search/max_distance", &o->max_distance, "m", kPositive,
+           "most that one point adds to e, so that new surroundings do not drown the known");
+  set->Add("laser/range_stddev", &o->noise.range_stddev, "m", kPositive,
+           "standard deviation of a range");
+  set->Add("laser/bearing_stddev", &o->noise.bearing_stddev, "rad", kNotNegative,
+           "standard deviation of a bearing");
+  set->Add("surface/radius", &o->surface.radius, "m", kPositive,
+           "half length of the line fitted around each point for its normal");
+  set->Add("surface/max_incidence", &o->surface.max_incidence, "rad", {0.1, 1.57},
+           "between ray and normal of the most grazing wall that is followed");
+  set->Add("local_map/spacing", &o->local_map.spacing, "m", kPositive,
+           "between surface elements along a wall");
+  set->Add("local_map/reach", &o->local_map.reach, "m", kPositive,
+           "farthest point that still finds an element");
+  set->Add("local_map/max_merge_offset", &o->local_map.max_merge_offset, "m", kPositive,
+           "across the wall, of a point that belongs to an element");
+  set->Add("local_map/min_normal_cosine", &o->local_map.min_normal_cosine, "-", {-1.0, 1.0},
+           "between the normals of a point and of the element it belongs to");
+  set->Add("local_map/insert_distance", &o->insert_distance, "m", kNotNegative,
+           "driven since the last scan that entered the map");
+  set->Add("local_map/insert_angle", &o->insert_angle, "rad", kNotNegative,
+           "turned since the last scan that entered the map");
+  set->Add("local_map/insert_first", &o->insert_first, "-", {1.0, 1e6},
+           "scans at the start that enter the map in any case");
+  set->Add("local_map/min_matched_fraction", &o->min_matched_fraction, "-", kFraction,
+           "of the points of a scan, to let it enter the map");
+  set->Add("edge_map/gate", &o->edge_map.gate, "m", kPositive, "farthest edge from its landmark");
+  set->Add("edge_map/min_separation", &o->edge_map.min_separation, "m", kPositive,
+           "between two edges of one sign that can be told apart");
+  set->Add("edge_map/min_weight", &o->edge_map.min_weight, "-", kFraction,
+           "share of the region of interest that must be vertical edge");
+  set->Add("edge_map/max_range", &o->edge_map.max_range, "m", kPositive,
+           "farther edges are not used");
+  set->Add("edge_map/surface_stddev", &o->edge_map.surface_stddev, "m", kPositive,
+           "how far an edge may lie off the surface that the laser sees");
+  RefinementOptions& r = o->refinement;
+  set->Add("refinement/max_iterations", &r.max_iterations, "-", {0.0, 100.0},
+           "least squares steps; 0 leaves the motion on the grid");
+  set->Add("refinement/gate", &r.gate, "m", kPositive,
+           "farthest point from its element, across the wall");
+  set->Add("refinement/along_gate", &r.along_gate, "m", kPositive, "the same along the wall");
+  set->Add("refinement/model_stddev", &r.model_stddev, "m", kPositive,
+           "roughness of walls and what else the map leaves out");
+  set->Add("refinement/kernel", &r.kernel, "-", kPositive,
+           "residuals of so many standard deviations count half");
+  set->Add("refinement/correlation", &r.correlation, "-", {1.0, 1e6},
+           "points of a scan that err together, as if they were one");
+  set->Add("refinement/edge_correlation", &r.edge_correlation, "-", {1.0, 1e6},
+           "edges of successive images that err together, as if they were one");
+  set->Add("refinement/min_normal_cosine", &r.min_normal_cosine, "-", {-1.0, 1.0},
+           "between the normals of a point and its element");
+  set->Add("refinement/degenerate_ratio", &r.degenerate_ratio, "-", kFraction,
+           "of the information along and across; below it a direction is left to the prediction");
+  set->Add("refinement/prior_kernel", &o->prior_kernel, "-", kPositive,
+           "encoders that are off by so many standard deviations count half");
+}
+
+void AddFrameMatcher(FrameMatcherOptions* o, ParameterSet* set) {
+  AddSearchGrid("frame", &o->grid, set);
+  set->AddDegrees("frame/field_of_view_deg", &o->field_of_view, {1.0, 360.0},
+                  "whole model of the current scan (beams 1 to 400 of the paper)");
+  set->AddDegrees("frame/frontal_field_of_view_deg", &o->frontal_field_of_view, {1.0, 360.0},
+                  "part of the previous model that is matched (beams 101 to 300 of the paper)");
+  set->Add("frame/max_distance", &o->max_distance, "m", kPositive, "most that one point adds to e");
+  set->Add("frame/edge_gain", &o->edge_gain, "-", kNotNegative,
+           "weight of a beam whose edge fills the region of interest, beside 1 for each beam");
+  set->Add("frame/range_stddev", &o->range_stddev, "m", kPositive,
+           "standard deviation of a range, for the covariance");
+}
+
+}  // namespace
+
+ParameterSet FusionParameters(ScanImageFusionOptions* o, ScanImageFusionNodeOptions* node) {
+  ParameterSet set("scan_image_fusion");
+  AddOdometryInput(&node->odometry, &set);
+  set.Add("use_camera", &node->use_camera,
+          "false: laser only, the image topics are not subscribed");
+  set.Add("image_transport", &node->image_transport,
+          "raw, compressed, or another transport of image_transport");
+  AddSensorPose("laser", &node->laser, &set);
+  AddSensorPose("camera", &node->camera, &set);
+  set.Add("min_range", &o->scan.min_range, "m", kNotNegative,
+          "nearer hits are not used, beside the range_min of the scan");
+  set.Add("max_range", &o->scan.max_range, "m", kPositive,
+          "farther hits are not used, beside the range_max of the scan");
+  set.AddDegrees("field_of_view_deg", &o->scan.field_of_view, {1.0, 360.0},
+                 "beams used, around the robot's front");
+  set.AddDegrees("min_beam_spacing_deg", &o->scan.min_beam_spacing, {0.0, 45.0},
+                 "beams nearer to the last used one are left out");
+  set.Add("max_image_age", &o->max_image_age, "s", kPositive,
+          "between the stamps of an image and of the scan it is fused with");
+  set.Add("camera_time_offset", &o->camera_time_offset, "s", {-10.0, 10.0},
+          "added to the stamps of the images");
+  set.Add("roi_below", &o->edges.roi_below, "m", kNotNegative,
+          "how far the region of interest reaches below the laser's line on the wall");
+  set.Add("roi_above", &o->edges.roi_above, "m", kNotNegative,
+          "how far the region of interest reaches above the laser's line on the wall");
+  set.Add("edge_threshold", &o->edges.edge_threshold, "grey levels", kPositive,
+          "step that makes an edge pixel");
+  set.Add("min_edge_length", &o->edges.min_edge_length, "m", kNotNegative,
+          "vertical run that makes an edge");
+  set.Add("min_edge_rows", &o->edges.min_edge_rows, "px", kNotNegative,
+          "the same in rows of the picture");
+  set.Add("column_tolerance", &o->edges.column_tolerance, "px", kPositive,
+          "runs in columns so near to each other are one edge");
+  set.Add("edge_bearing_stddev", &o->edge_bearing_stddev, "px", kPositive,
+          "standard deviation of an edge's column");
+  AddOdometryLimits(&o->odometry, &set);
+  return set;
+}
+
+ParameterSet BoundedIcpParameters(BoundedIcpOptions* o, BoundedIcpNodeOptions* node) {
+  ParameterSet set("bounded_icp");
+  AddOdometryInput(&node->odometry, &set);
+  set.AddChoice(
+      "reference", &o->reference,
+      {{"local_map", Reference::kLocalMap}, {"previous_frame", Reference::kPreviousFrame}},
+      "what scans are matched with: local_map (all that was seen, refined below the grid "
+      "step) or previous_frame (the letter of the paper)");
+  set.Add("reference_distance", &o->reference_distance, "m", kPositive,
+          "motions are told from a scan at most so far back");
+  set.AddDegrees("reference_angle_deg", &o->reference_angle, {1.0, 180.0},
+                 "motions are told from a scan at most so much turned");
+  AddMotionBounds(&o->prediction.bounds, &set);
+  set.Add("window/lateral_per_distance_without_encoders",
+          &o->prediction.lateral_per_distance_without_encoders, "-", kNotNegative,
+          "sideways bound without encoders, as a fraction of D");
+  AddMotionNoise(&o->prediction.noise, &set);
+  AddLocalMapMatcher(&o->local_map_matcher, &set);
+  AddFrameMatcher(&o->frame_matcher, &set);
+  AddOdometryLimits(&o->prediction.odometry, &set);
+  return set;
+}
+
+ParameterSet MapperParameters(MapperOptions* o, MapperNodeOptions* node) {
+  ParameterSet set("mapper");
+  set.Add("map_frame", &node->map_frame, "frame of the map");
+  set.Add("odom_frame", &node->odom_frame, "frame of the encoders' dead reckoning");
+  set.Add("base_frame", &node->base_frame, "frame of the robot's base");
+  set.Add("pub_map_odom_transform", &node->pub_map_odom_transform,
+          "publish map_frame -> odom_frame (without encoders: map_frame -> base_frame)");
+  set.Add("transform_publish_period", &node->transform_publish_period, "s", {0.001, 10.0},
+          "between two transforms");
+  set.Add("tf_delay", &node->tf_delay, "s", {0.0, 10.0},
+          "transforms are stamped so far ahead, so that others need not wait for the next one");
+  set.Add("map_update_interval", &node->map_update_interval, "s", {0.01, 3600.0},
+          "between two maps");
+  set.Add("trajectory_spacing", &node->trajectory_spacing, "m", kNotNegative,
+          "between the poses of the paths");
+  set.Add("resolution", &o->grid.resolution, "m", {0.001, 10.0}, "side of a cell of the map");
+  set.Add("update_factor_occupied", &o->grid.update_factor_occupied, "-", {0.501, 0.999},
+          "probability that a cell with one hit is occupied");
+  set.Add("update_factor_free", &o->grid.update_factor_free, "-", {0.001, 0.499},
+          "probability that a cell that one beam has crossed is occupied");
+  set.Add("map_max_range", &o->grid.max_range, "m", kPositive, "beams are drawn up to here");
+  set.AddChoice("no_return_policy", &o->grid.no_return_policy,
+                {{"ignore", NoReturnPolicy::kIgnore},
+                 {"clear_to_max", NoReturnPolicy::kClearToMax},
+                 {"clear_to_max_legacy", NoReturnPolicy::kClearToMaxLegacy}},
+                "what beams without a return clear: ignore (nothing), clear_to_max (up to "
+                "map_max_range where the driver says +Inf, as REP-117 wants) or "
+                "clear_to_max_legacy (also for NaN, 0 and ranges below the minimum)");
+  set.Add("map_update_distance_thresh", &o->map_update_distance_thresh, "m", kNotNegative,
+          "driven since the last scan that was drawn");
+  set.Add("map_update_angle_thresh", &o->map_update_angle_thresh, "rad", kNotNegative,
+          "turned since the last scan that was drawn");
+  set.Add("map_update_time_thresh", &o->map_update_time_thresh, "s", kNotNegative,
+          "passed since the last scan that was drawn");
+  return set;
+}
+
+std::vector<ParameterSet> SlamOptions::Parameters() {
+  return {FusionParameters(&fusion, &fusion_node),
+          BoundedIcpParameters(&bounded_icp, &bounded_icp_node),
+          MapperParameters(&mapper, &mapper_node)};
+}
+
+}  // namespace scan_image_slam

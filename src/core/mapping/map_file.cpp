@@ -1,0 +1,77 @@
+#include "scan_image_slam/core/mapping/map_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace scan_image_slam {
+namespace {
+
+// As map_saver: cells at least so probably occupied are walls, at most so probably are free.
+constexpr int kOccupied = 65;
+constexpr int kFree = 25;
+
+std::uint8_t Grey(std::int8_t occupancy) {
+  if (occupancy < 0) return 205;
+  if (occupancy >= kOccupied) return 0;
+  return occupancy <= kFree ? 254 : 205;
+}
+
+void WriteFile(const std::string& path, const std::string& content) {
+  std::ofstream file(path, std::ios::binary);
+  file << content;
+  file.flush();
+  if (!file) throw std::runtime_error("can't write " + path + ": " + std::strerror(errno));
+}
+
+}  // namespace
+
+MapImage ToMapImage(const OccupancyGrid& grid) {
+  const CellBox& box = grid.box();
+  CellBox known{{box.x.end, box.x.begin}, {box.y.end, box.y.begin}};
+  for (int y = box.y.begin; y < box.y.end; ++y) {
+    for (int x = box.x.begin; x < box.x.end; ++x) {
+      if (grid.Occupancy(x, y) < 0) continue;
+      known.x = {std::min(known.x.begin, x), std::max(known.x.end, x + 1)};
+      known.y = {std::min(known.y.begin, y), std::max(known.y.end, y + 1)};
+    }
+  }
+  MapImage map;
+  map.resolution = grid.resolution();
+  if (known.empty()) return map;
+  known = {{known.x.begin - 1, known.x.end + 1}, {known.y.begin - 1, known.y.end + 1}};
+  map.width = known.x.size();
+  map.height = known.y.size();
+  map.origin_x = known.x.begin * map.resolution;
+  map.origin_y = known.y.begin * map.resolution;
+  map.occupancy.reserve(static_cast<std::size_t>(map.width) * map.height);
+  for (int y = known.y.begin; y < known.y.end; ++y) {
+    for (int x = known.x.begin; x < known.x.end; ++x) map.occupancy.push_back(grid.Occupancy(x, y));
+  }
+  return map;
+}
+
+std::string WriteMap(const MapImage& map, const std::string& stem) {
+  std::string pixels;
+  pixels.reserve(map.occupancy.size());
+  for (int row = map.height - 1; row >= 0; --row) {  // pictures start at the top
+    for (int x = 0; x < map.width; ++x) {
+      pixels.push_back(
+          static_cast<char>(Grey(map.occupancy[static_cast<std::size_t>(row) * map.width + x])));
+    }
+  }
+  WriteFile(stem + ".pgm", "P5\n" + std::to_string(map.width) + " " + std::to_string(map.height) +
+                               "\n255\n" + pixels);
+  std::ostringstream yaml;
+  yaml.imbue(std::locale::classic());
+  const std::string name = stem.substr(stem.find_last_of('/') + 1);
+  yaml << "image: " << name << ".pgm\nresolution: " << map.resolution << "\norigin: ["
+       << map.origin_x << ", " << map.origin_y << ", 0.0]\nnegate: 0\noccupied_thresh: 0.65\n"
+       << "free_thresh: 0.196\n";
+  WriteFile(stem + ".yaml", yaml.str());
+  return stem + ".yaml";
+}
+
+}  // namespace scan_image_slam

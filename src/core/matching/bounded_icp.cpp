@@ -1,0 +1,82 @@
+#include "scan_image_slam/core/matching/bounded_icp.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace scan_image_slam {
+namespace {
+
+MatchStatus StatusOf(const MatchOutcome& outcome) {
+  if (outcome.on_window_edge) return MatchStatus::kOnWindowEdge;
+  return outcome.degenerate ? MatchStatus::kDegenerate : MatchStatus::kMatched;
+}
+
+}  // namespace
+
+BoundedIcp::BoundedIcp(const BoundedIcpOptions& options)
+    : options_(options),
+      predictor_(options.prediction),
+      local_map_matcher_(options.local_map_matcher),
+      frame_matcher_(options.frame_matcher) {}
+
+MatchedMotion BoundedIcp::Match(const FusedModel& model) {
+  if (last_stamp_ && model.stamp <= *last_stamp_) {
+    throw std::invalid_argument("the stamp of a model must be later than that of the last one");
+  }
+  const bool use_local_map = options_.reference == Reference::kLocalMap;
+  const MotionPrediction prediction = predictor_.Predict(model.stamp);
+  MatchedMotion match;
+  match.stamp = model.stamp;
+  match.odom_from_base = prediction.odom_from_base;
+  match.mode = prediction.odom_from_base ? MatchMode::kNoCamera : MatchMode::kLaserOnly;
+  match.window = prediction.window;
+  if (!last_stamp_) {
+    match.status = MatchStatus::kFirst;
+    start_stamp_ = model.stamp;
+    reference_stamp_ = model.stamp;
+    if (use_local_map) {
+      local_map_matcher_.Start(model, start_from_base_);
+    } else {
+      frame_matcher_.Start(model);
+    }
+    predictor_.Update(model.stamp, Pose2());
+  } else {
+    const MatchOutcome outcome =
+        use_local_map ? local_map_matcher_.Match(model, start_from_base_, covariance_, prediction)
+                      : frame_matcher_.Match(model, prediction);
+    const Pose2 motion = prediction.motion * FromArcCoordinates(outcome.deviation);
+    match.status = StatusOf(outcome);
+    match.deviation = outcome.deviation;
+    match.sweep_correction = outcome.sweep_correction;
+    match.e = outcome.e;
+    match.rms = outcome.rms;
+    match.candidates = outcome.candidates;
+    match.points = outcome.points;
+    match.matched = outcome.matched;
+    match.degenerate_direction = outcome.degenerate_direction;
+    covariance_ = outcome.covariance;
+    start_from_base_ = start_from_base_ * motion;
+    predictor_.Update(model.stamp, motion);
+  }
+  match.covariance = covariance_;
+  last_stamp_ = model.stamp;
+  ChooseReference(&match);
+  return match;
+}
+
+/// Motions are told from a scan not far back, so that they stay small and mean what was measured.
+void BoundedIcp::ChooseReference(MatchedMotion* match) {
+  match->start_stamp = start_stamp_;
+  match->reference_stamp = reference_stamp_;
+  match->start_from_reference = start_from_reference_;
+  match->motion = start_from_reference_.Inverse() * start_from_base_;
+  const bool too_far = options_.reference == Reference::kPreviousFrame ||
+                       match->motion.translation().norm() > options_.reference_distance ||
+                       std::abs(match->motion.theta) > options_.reference_angle;
+  if (too_far) {
+    reference_stamp_ = match->stamp;
+    start_from_reference_ = start_from_base_;
+  }
+}
+
+}  // namespace scan_image_slam

@@ -1,0 +1,183 @@
+#include "scan_image_slam/core/matching/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+namespace scan_image_slam {
+namespace {
+
+/// Least squares in the tangent space of the pose: information * step = -gradient.
+struct NormalEquations {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+};
+
+/// Weight of Cauchy's kernel: 1 for small residuals, 1/2 at `kernel` standard deviations.
+double CauchyWeight(double squared_residual, double variance, double kernel) {
+  return 1.0 / (1.0 + squared_residual / (kernel * kernel * variance));
+}
+
+struct ScanTerm {
+  NormalEquations equations;
+  int matched = 0;
+  double weighted_squares = 0.0;
+  double weights = 0.0;
+};
+
+/// Sums over the points; the Jacobian of n . (R p + t - q) by (forward, left, turn) in the base
+/// frame is (n_b, n_b x p) with n_b the normal seen from the base.
+ScanTerm SumOverPoints(const std::vector<SurfacePoint>& points, const LocalMap& map,
+                       const RangeNoise& noise, const Pose2& map_from_base,
+                       const RefinementOptions& options, double gate) {
+  ScanTerm term;
+  const RigidTransform2 transform(map_from_base);
+  const RigidTransform2 rotate_back(Pose2{0.0, 0.0, -map_from_base.theta});
+  const double model_variance = options.model_stddev * options.model_stddev;
+  double xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0, gx = 0, gy = 0, gt = 0;
+  for (const SurfacePoint& p : points) {
+    const Eigen::Vector2d place = transform * p.point;
+    const SurfaceElement* element = map.Nearest(place);
+    if (element == nullptr) continue;
+    const Eigen::Vector2d normal = element->normal.cast<double>();
+    const Eigen::Vector2d offset = place - element->position.cast<double>();
+    const double residual = normal.dot(offset);
+    const double along = normal.x() * offset.y() - normal.y() * offset.x();
+    if (std::abs(residual) > gate || std::abs(along) > options.along_gate) continue;
+    const Eigen::Vector2d n = rotate_back.Rotate(normal);
+    const double cosine = -n.dot(p.ray);
+    if (cosine <= 0.0) continue;  // the wall's other side
+    if (p.has_normal() && p.normal.dot(n) < options.min_normal_cosine) continue;
+    const double variance =
+        model_variance + noise.VarianceAcross(p.range, cosine) + 1.0 / element->information;
+    const double squared = residual * residual;
+    const double w = CauchyWeight(squared, variance, options.kernel) / variance;
+    const double turn = p.point.x() * n.y() - p.point.y() * n.x();
+    xx += w * n.x() * n.x();
+    xy += w * n.x() * n.y();
+    yy += w * n.y() * n.y();
+    xt += w * n.x() * turn;
+    yt += w * n.y() * turn;
+    tt += w * turn * turn;
+    gx += w * n.x() * residual;
+    gy += w * n.y() * residual;
+    gt += w * turn * residual;
+    term.weighted_squares += w * squared;
+    term.weights += w;
+    ++term.matched;
+  }
+  term.equations.information << xx, xy, xt, xy, yy, yt, xt, yt, tt;
+  term.equations.gradient << gx, gy, gt;
+  term.equations.information /= options.correlation;
+  term.equations.gradient /= options.correlation;
+  return term;
+}
+
+/// Adds the edges: residual is how far the landmark lies off the line of sight.
+int AddEdges(const std::vector<ModelEdge>& edges, const EdgeMap& map, const Pose2& map_from_base,
+             const RefinementOptions& options, NormalEquations* equations) {
+  const RigidTransform2 transform(map_from_base);
+  int matched = 0;
+  for (const ModelEdge& edge : edges) {
+    const EdgeLandmark* landmark = map.Find(edge, transform);
+    if (landmark == nullptr) continue;
+    const Eigen::Vector2d n(-std::sin(edge.bearing), std::cos(edge.bearing));
+    const Eigen::Vector2d across = transform.Rotate(n);
+    const Eigen::Vector2d p = edge.point();
+    const double residual = across.dot(transform * p - landmark->position);
+    const double variance =
+        std::pow(edge.bearing_stddev * edge.range, 2) + across.dot(landmark->covariance * across);
+    const double w = CauchyWeight(residual * residual, variance, options.kernel) /
+                     (variance * options.edge_correlation);
+    const Eigen::Vector3d jacobian(n.x(), n.y(), p.x() * n.y() - p.y() * n.x());
+    equations->information += w * jacobian * jacobian.transpose();
+    equations->gradient += w * residual * jacobian;
+    ++matched;
+  }
+  return matched;
+}
+
+struct Degeneracy {
+  bool found = false;
+  Eigen::Vector2d direction{1, 0};
+};
+
+/// A direction in which the scan says next to nothing compared to the one across it, as along a
+/// plain corridor. What little is there is noise of the normals, so it is taken out.
+Degeneracy RemoveWeakDirection(double ratio, NormalEquations* equations) {
+  Degeneracy degeneracy;
+  const Eigen::Matrix3d& h = equations->information;
+  if (h(2, 2) <= 0.0) return degeneracy;
+  const Eigen::Matrix2d translation =
+      h.topLeftCorner<2, 2>() - h.topRightCorner<2, 1>() * h.bottomLeftCorner<1, 2>() / h(2, 2);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(translation);
+  if (eigen.eigenvalues()(0) >= ratio * eigen.eigenvalues()(1)) return degeneracy;
+  degeneracy.found = true;
+  degeneracy.direction = eigen.eigenvectors().col(0);
+  Eigen::Matrix3d project = Eigen::Matrix3d::Identity();
+  project.topLeftCorner<2, 2>() -= degeneracy.direction * degeneracy.direction.transpose();
+  equations->information = (project * equations->information * project).eval();
+  equations->gradient = (project * equations->gradient).eval();
+  return degeneracy;
+}
+
+void AddPrior(const MotionPrior& prior, const Eigen::Matrix3d& prior_information,
+              const Pose2& map_from_base, NormalEquations* equations) {
+  const Pose2 deviation = prior.map_from_base.Inverse() * map_from_base;
+  const Eigen::Vector3d d(deviation.x, deviation.y, deviation.theta);
+  const double squared = d.dot(prior_information * d);
+  const Eigen::Matrix3d weighted = CauchyWeight(squared, 1.0, prior.kernel) * prior_information;
+  equations->information += weighted;
+  equations->gradient += weighted * d;
+}
+
+}  // namespace
+
+void RefinementOptions::Validate() const {
+  const auto require = [](bool ok, const char* what) {
+    if (!ok) throw std::invalid_argument(what);
+  };
+  require(max_iterations >= 0, "max_iterations must not be negative");
+  require(gate > 0.0, "gate must be positive");
+  require(along_gate > 0.0, "along_gate must be positive");
+  require(model_stddev > 0.0, "model_stddev must be positive");
+  require(kernel > 0.0, "kernel must be positive");
+  require(correlation >= 1.0, "correlation must be at least 1");
+}
+
+Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
+                  const std::vector<ModelEdge>& edges, const EdgeMap& edge_map,
+                  const RangeNoise& noise, const MotionPrior& prior, const Pose2& start,
+                  const RefinementOptions& options) {
+  constexpr int kWideIterations = 2;  // first steps from the grid, which is coarser than the gate
+  constexpr double kSmallStep = 1e-5;
+  const Eigen::Matrix3d prior_information = prior.covariance.inverse();
+  Refinement result;
+  result.map_from_base = start;
+  result.covariance = prior.covariance;
+  for (int i = 0; i < options.max_iterations; ++i) {
+    const double gate = i < kWideIterations ? 2.0 * options.gate : options.gate;
+    ScanTerm term = SumOverPoints(points, map, noise, result.map_from_base, options, gate);
+    const Degeneracy degeneracy = RemoveWeakDirection(options.degenerate_ratio, &term.equations);
+    NormalEquations equations = term.equations;
+    result.matched_edges = AddEdges(edges, edge_map, result.map_from_base, options, &equations);
+    AddPrior(prior, prior_information, result.map_from_base, &equations);
+    const Eigen::Vector3d step = -equations.information.ldlt().solve(equations.gradient);
+    result.map_from_base = result.map_from_base * Pose2{step.x(), step.y(), step.z()};
+    result.covariance = equations.information.inverse();
+    result.scan_information = term.equations.information;
+    result.matched = term.matched;
+    result.rms = term.weights > 0.0 ? std::sqrt(term.weighted_squares / term.weights) : 0.0;
+    result.degenerate = degeneracy.found;
+    result.degenerate_direction = std::atan2(degeneracy.direction.y(), degeneracy.direction.x());
+    if (i >= kWideIterations && step.cwiseAbs().maxCoeff() < kSmallStep) break;
+  }
+  return result;
+}
+
+}  // namespace scan_image_slam

@@ -1,0 +1,101 @@
+#include "scan_image_slam/core/sensor/odometry_buffer.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace scan_image_slam {
+namespace {
+
+void RequirePositive(double value, const char* name) {
+  if (!(std::isfinite(value) && value > 0.0)) {
+    throw std::invalid_argument(std::string(name) + " must be positive and finite");
+  }
+}
+
+}  // namespace
+
+void OdometryOptions::Validate() const {
+  RequirePositive(max_speed, "max_speed");
+  RequirePositive(max_turn_rate, "max_turn_rate");
+  RequirePositive(max_extrapolation, "max_extrapolation");
+  RequirePositive(history, "history");
+}
+
+OdometryBuffer::OdometryBuffer(const OdometryOptions& options) : options_(options) {
+  options_.Validate();
+}
+
+OdometryBuffer::Result OdometryBuffer::Add(Stamp stamp, const Pose2& odom_from_base) {
+  if (readings_.empty()) {
+    readings_.push_back({stamp, odom_from_base});
+    last_odom_from_base_ = odom_from_base;
+    odom_from_continuous_ = Pose2{};
+    return Result::kAdded;
+  }
+  const Reading& last = readings_.back();
+  if (stamp <= last.stamp) return Result::kStale;
+
+  // Positions are only trusted to the encoders' resolution, so a short step may look fast.
+  constexpr double kPositionSlack = 0.05;
+  constexpr double kAngleSlack = 0.05;
+  // Stamps may jitter, so a step is judged by the usual period if that is longer.
+  const double dt = Seconds(stamp - last.stamp);
+  const double step = std::max(dt, period_);
+  period_ = period_ == 0.0 ? dt : period_ + 0.05 * (std::min(dt, 10.0 * period_) - period_);
+  Pose2 motion = last_odom_from_base_.Inverse() * odom_from_base;
+  const bool reset = motion.translation().norm() > options_.max_speed * step + kPositionSlack ||
+                     std::abs(motion.theta) > options_.max_turn_rate * step + kAngleSlack;
+  if (reset) {
+    motion = Pose2{};
+    if (readings_.size() >= 2) {
+      const Reading& before = readings_[readings_.size() - 2];
+      const double fraction =
+          std::min(dt, options_.max_extrapolation) / Seconds(last.stamp - before.stamp);
+      motion = Interpolate(
+          Pose2{}, before.continuous_from_base.Inverse() * last.continuous_from_base, fraction);
+    }
+  }
+  const Pose2 continuous_from_base = last.continuous_from_base * motion;
+  if (reset) odom_from_continuous_ = odom_from_base * continuous_from_base.Inverse();
+  readings_.push_back({stamp, continuous_from_base});
+  last_odom_from_base_ = odom_from_base;
+  while (readings_.size() > 2 && Seconds(stamp - readings_.front().stamp) > options_.history) {
+    readings_.pop_front();
+  }
+  return reset ? Result::kReset : Result::kAdded;
+}
+
+std::optional<Pose2> OdometryBuffer::ContinuousPose(Stamp stamp) const {
+  if (readings_.empty()) return std::nullopt;
+  if (stamp < readings_.front().stamp) {
+    const double early = Seconds(readings_.front().stamp - stamp);
+    if (early > options_.max_extrapolation) return std::nullopt;
+    return readings_.front().continuous_from_base;
+  }
+  const Reading& newest = readings_.back();
+  if (stamp >= newest.stamp) {
+    const double ahead = Seconds(stamp - newest.stamp);
+    if (ahead > options_.max_extrapolation) return std::nullopt;
+    if (readings_.size() < 2 || ahead == 0.0) return newest.continuous_from_base;
+    const Reading& before = readings_[readings_.size() - 2];
+    return Interpolate(before.continuous_from_base, newest.continuous_from_base,
+                       1.0 + ahead / Seconds(newest.stamp - before.stamp));
+  }
+  const auto after =
+      std::upper_bound(readings_.begin(), readings_.end(), stamp,
+                       [](Stamp s, const Reading& reading) { return s < reading.stamp; });
+  const auto before = after - 1;
+  return Interpolate(before->continuous_from_base, after->continuous_from_base,
+                     Seconds(stamp - before->stamp) / Seconds(after->stamp - before->stamp));
+}
+
+std::optional<Pose2> OdometryBuffer::OdomFromBase(Stamp stamp) const {
+  const std::optional<Pose2> pose = ContinuousPose(stamp);
+  if (!pose) return std::nullopt;
+  return odom_from_continuous_ * *pose;
+}
+
+void OdometryBuffer::Clear() { readings_.clear(); }
+
+}  // namespace scan_image_slam

@@ -1,0 +1,319 @@
+#include "scan_image_slam/ros/bag_input.h"
+
+#include "scan_image_slam/ros/image_conversion.h"
+#include "scan_image_slam/ros/sensor_conversions.h"
+#include "scan_image_slam/ros/sensor_frames.h"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include <nav_msgs/Odometry.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/LaserScan.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
+
+namespace scan_image_slam {
+namespace {
+
+constexpr char kScanType[] = "sensor_msgs/LaserScan";
+constexpr char kImageType[] = "sensor_msgs/Image";
+constexpr char kCompressedType[] = "sensor_msgs/CompressedImage";
+constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
+constexpr char kOdometryType[] = "nav_msgs/Odometry";
+const std::vector<std::string> kTransformTopics = {"/tf", "/tf_static"};
+
+std::string Join(const std::vector<std::string>& words) {
+  std::string joined;
+  for (const std::string& word : words) joined += (joined.empty() ? "" : ", ") + word;
+  return joined.empty() ? "none" : joined;
+}
+
+std::string WithSlash(const std::string& topic) {
+  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
+}
+
+void Open(const std::string& path, rosbag::Bag* bag) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) throw BagError(path + ": can't be opened for reading");
+  const auto size = static_cast<long long>(file.tellg());
+  if (size == 0) throw BagError(path + ": the file is empty");
+  try {
+    bag->open(path, rosbag::bagmode::Read);
+  } catch (const rosbag::BagUnindexedException&) {
+    throw BagError(path + ": the bag has no index; it ends at byte " + std::to_string(size) +
+                   " as if the recording had been cut off (rosbag reindex mends that)");
+  } catch (const rosbag::BagException& error) {
+    throw BagError(path + ": not a readable bag (" + std::to_string(size) +
+                   " bytes): " + error.what());
+  }
+}
+
+}  // namespace
+
+BagInput::~BagInput() = default;
+
+BagInput::BagInput(const std::string& path, const BagTopics& topics, const SlamOptions& options)
+    : path_(path), options_(options), mounts_(std::make_unique<tf2::BufferCore>()) {
+  Open(path, &bag_);
+  try {
+    rosbag::View all(bag_);
+    for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
+      // Older recordings hold transforms under the type of the first tf, with the same content.
+      type_of_[connection->topic] =
+          connection->datatype == "tf/tfMessage" ? "tf2_msgs/TFMessage" : connection->datatype;
+    }
+    if (all.size() == 0) throw BagError(path + ": the bag holds no messages");
+    ChooseTopics(topics);
+    ReadTransforms();
+    ChooseBaseFrame();
+    CheckFrames();
+  } catch (const rosbag::BagException& error) {
+    throw BagError(path + ": damaged: " + error.what());
+  }
+}
+
+std::vector<std::string> BagInput::TopicsOfType(const std::string& type) const {
+  std::vector<std::string> topics;
+  for (const auto& [topic, its_type] : type_of_) {
+    if (its_type == type) topics.push_back(topic);
+  }
+  return topics;
+}
+
+/// The wanted topic; without a wish the usual one, or the only one of its type, or none.
+std::string BagInput::Choose(const std::string& wanted, const std::string& usual,
+                             const std::string& type, const std::string& option) const {
+  const std::vector<std::string> candidates = TopicsOfType(type);
+  if (!wanted.empty()) {
+    const std::string topic = WithSlash(wanted);
+    if (std::find(candidates.begin(), candidates.end(), topic) != candidates.end()) return topic;
+    throw BagError(path_ + ": there is no topic " + topic + " of type " + type + " (" + option +
+                   "); topics of this type: " + Join(candidates));
+  }
+  if (std::find(candidates.begin(), candidates.end(), usual) != candidates.end()) return usual;
+  return candidates.size() == 1 ? candidates.front() : "";
+}
+
+void BagInput::ChooseTopics(const BagTopics& topics) {
+  scan_topic_ = Choose(topics.scan, "/scan", kScanType, "--scan-topic");
+  if (scan_topic_.empty()) {
+    throw BagError(path_ + ": there is no topic /scan; topics of type " + kScanType + ": " +
+                   Join(TopicsOfType(kScanType)) + " (choose one with --scan-topic)");
+  }
+  notes_.push_back("scans: " + scan_topic_);
+
+  const OdometrySource source = options_.fusion_node.odometry.source;
+  if (source == OdometrySource::kAuto || source == OdometrySource::kTopic) {
+    odom_topic_ = Choose(topics.odom, "/odom", kOdometryType, "--odom-topic");
+  }
+  odometry_from_tf_ = odom_topic_.empty() &&
+                      (source == OdometrySource::kAuto || source == OdometrySource::kTf) &&
+                      type_of_.count("/tf") != 0;
+
+  if (!topics.use_images) return;
+  const std::string raw = Choose("", "/image_raw", kImageType, "--image-topic");
+  const std::string compressed =
+      Choose("", "/image_raw/compressed", kCompressedType, "--image-topic");
+  image_topic_ = raw.empty() ? compressed : raw;
+  if (!topics.image.empty()) {
+    const std::string wanted = WithSlash(topics.image);
+    const bool is_compressed = type_of_.count(wanted) == 0 || type_of_[wanted] == kCompressedType;
+    image_topic_ =
+        is_compressed && type_of_.count(wanted) == 0
+            ? Choose(wanted + "/compressed", "", kCompressedType, "--image-topic")
+            : Choose(wanted, "", is_compressed ? kCompressedType : kImageType, "--image-topic");
+  }
+  camera_info_topic_ =
+      Choose(topics.camera_info, "/camera_info", kCameraInfoType, "--camera-info-topic");
+  if (!image_topic_.empty() && camera_info_topic_.empty()) {
+    throw BagError(path_ + ": there are images on " + image_topic_ +
+                   " but no topic /camera_info; topics of type " + kCameraInfoType + ": " +
+                   Join(TopicsOfType(kCameraInfoType)) +
+                   " (choose one with --camera-info-topic, or use --no-images)");
+  }
+  notes_.push_back("images: " + (image_topic_.empty() ? "none" : image_topic_));
+}
+
+/// Sensors do not move on the robot: the first transform between each two frames is kept.
+void BagInput::ReadTransforms() {
+  std::set<std::pair<std::string, std::string>> known;
+  rosbag::View view(bag_, rosbag::TopicQuery(kTransformTopics));
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto message = instance.instantiate<tf2_msgs::TFMessage>();
+    if (message == nullptr) continue;
+    for (geometry_msgs::TransformStamped transform : message->transforms) {
+      transform.header.frame_id = StripSlash(transform.header.frame_id);
+      transform.child_frame_id = StripSlash(transform.child_frame_id);
+      if (known.emplace(transform.header.frame_id, transform.child_frame_id).second) {
+        mounts_->setTransform(transform, "bag", true);
+      }
+    }
+  }
+}
+
+std::string BagInput::FirstFrame(const std::string& topic) const {
+  rosbag::View view(bag_, rosbag::TopicQuery(topic));
+  for (const rosbag::MessageInstance& instance : view) {
+    if (const auto scan = instance.instantiate<sensor_msgs::LaserScan>()) {
+      return StripSlash(scan->header.frame_id);
+    }
+    if (const auto info = instance.instantiate<sensor_msgs::CameraInfo>()) {
+      return StripSlash(info->header.frame_id);
+    }
+    if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) {
+      return StripSlash(odometry->child_frame_id);
+    }
+    throw BagError(path_ + ": topic " + topic + " was recorded with another definition of " +
+                   instance.getDataType());
+  }
+  throw BagError(path_ + ": topic " + topic + " holds no messages");
+}
+
+void BagInput::ChooseBaseFrame() {
+  base_frame_ = StripSlash(options_.fusion_node.odometry.base_frame);
+  const std::string laser_frame = FirstFrame(scan_topic_);
+  if (!options_.fusion_node.laser.from_tf ||
+      LookUpSensor(*mounts_, base_frame_, laser_frame).found) {
+    return;
+  }
+  const std::string driven = odom_topic_.empty() ? "" : FirstFrame(odom_topic_);
+  if (!driven.empty() && LookUpSensor(*mounts_, driven, laser_frame).found) {
+    notes_.push_back("base frame: " + driven + " (of " + odom_topic_ + "), as there is no " +
+                     base_frame_);
+    base_frame_ = driven;
+  } else if (odom_topic_.empty() && type_of_.count("/tf") == 0 &&
+             type_of_.count("/tf_static") == 0) {
+    notes_.push_back("base frame: " + laser_frame +
+                     " (of the scans), as there are neither encoders nor transforms");
+    base_frame_ = laser_frame;
+  }
+}
+
+void BagInput::CheckFrames() {
+  if (options_.fusion_node.laser.from_tf) {
+    const FrameLookup laser = LookUpSensor(*mounts_, base_frame_, FirstFrame(scan_topic_));
+    if (!laser.found) {
+      throw BagError(path_ + ": laser: " + laser.problem +
+                     " (choose the base with --base-frame, or give the laser's pose by the "
+                     "parameters scan_image_fusion/laser/...)");
+    }
+  }
+  const std::string encoders = odometry_from_tf_ ? "/tf" : odom_topic_;
+  notes_.push_back("encoders: " + (encoders.empty() ? "none, constant velocity" : encoders));
+  if (image_topic_.empty()) return;
+  if (!options_.fusion_node.camera.from_tf) {
+    base_from_camera_ = ToOpticalIsometry(options_.fusion_node.camera);
+    return;
+  }
+  const FrameLookup camera = LookUpSensor(*mounts_, base_frame_, FirstFrame(camera_info_topic_));
+  if (!camera.found) {
+    throw BagError(path_ + ": camera: " + camera.problem +
+                   " (give its pose by the parameters scan_image_fusion/camera/..., or use "
+                   "--no-images)");
+  }
+  base_from_camera_ = camera.base_from_sensor;
+}
+
+void BagInput::Play(SlamPipeline* pipeline, const SlamPipeline::RunStage& run,
+                    const std::function<void(double)>& progress) {
+  const Eigen::Isometry3d base_from_laser =
+      options_.fusion_node.laser.from_tf
+          ? LookUpSensor(*mounts_, base_frame_, FirstFrame(scan_topic_)).base_from_sensor
+          : ToIsometry(options_.fusion_node.laser);
+  try {
+    pipeline->fusion().SetLaser(LaserMount::From(base_from_laser));
+  } catch (const std::invalid_argument& error) {
+    throw BagError(path_ + ": " + error.what());
+  }
+  std::vector<std::string> topics = {scan_topic_};
+  if (!odom_topic_.empty()) topics.push_back(odom_topic_);
+  if (odometry_from_tf_) topics.push_back("/tf");
+  if (!image_topic_.empty()) topics.insert(topics.end(), {image_topic_, camera_info_topic_});
+  try {
+    rosbag::View view(bag_, rosbag::TopicQuery(topics));
+    const double total = std::max<double>(1.0, view.size());
+    double done = 0.0;
+    for (const rosbag::MessageInstance& message : view) {
+      const std::string& topic = message.getTopic();
+      try {
+        if (topic == scan_topic_) {
+          PlayScan(message, pipeline);
+        } else if (topic == odom_topic_) {
+          PlayOdometry(message, pipeline);
+        } else if (topic == camera_info_topic_) {
+          PlayCameraInfo(message, pipeline);
+        } else if (topic == image_topic_) {
+          PlayImage(message, pipeline, run);
+        } else {
+          PlayTransforms(message, pipeline);
+        }
+      } catch (const std::invalid_argument& error) {
+        ++refused_[topic + ": " + error.what()];
+      }
+      progress(++done / total);
+    }
+  } catch (const rosbag::BagException& error) {
+    throw BagError(path_ + ": damaged: " + error.what());
+  }
+  pipeline->Finish();
+}
+
+void BagInput::PlayScan(const rosbag::MessageInstance& message, SlamPipeline* pipeline) {
+  const auto scan = message.instantiate<sensor_msgs::LaserScan>();
+  if (scan == nullptr) return;
+  pipeline->AddScan(ToLaserScan(*scan), static_cast<Stamp>(message.getTime().toNSec()));
+}
+
+void BagInput::PlayOdometry(const rosbag::MessageInstance& message, SlamPipeline* pipeline) {
+  const auto odometry = message.instantiate<nav_msgs::Odometry>();
+  if (odometry == nullptr) return;
+  pipeline->AddOdometry(ToStamp(odometry->header.stamp), ToPose2(odometry->pose.pose),
+                        static_cast<Stamp>(message.getTime().toNSec()));
+}
+
+void BagInput::PlayTransforms(const rosbag::MessageInstance& message, SlamPipeline* pipeline) {
+  const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
+  if (transforms == nullptr) return;
+  const std::string odom_frame = StripSlash(options_.fusion_node.odometry.odom_frame);
+  for (const geometry_msgs::TransformStamped& transform : transforms->transforms) {
+    if (StripSlash(transform.header.frame_id) != odom_frame) continue;
+    const FrameLookup child_from_base =
+        LookUpSensor(*mounts_, StripSlash(transform.child_frame_id), base_frame_);
+    if (!child_from_base.found) continue;
+    pipeline->AddOdometry(ToStamp(transform.header.stamp),
+                          ToPose2(Eigen::Isometry3d(ToIsometry(transform.transform) *
+                                                    child_from_base.base_from_sensor)),
+                          static_cast<Stamp>(message.getTime().toNSec()));
+  }
+}
+
+void BagInput::PlayCameraInfo(const rosbag::MessageInstance& message, SlamPipeline* pipeline) {
+  if (camera_set_) return;
+  const auto info = message.instantiate<sensor_msgs::CameraInfo>();
+  if (info == nullptr) return;
+  pipeline->fusion().SetCamera(ToCameraIntrinsics(*info), *base_from_camera_);
+  camera_set_ = true;
+}
+
+void BagInput::PlayImage(const rosbag::MessageInstance& message, SlamPipeline* pipeline,
+                         const SlamPipeline::RunStage& run) {
+  if (!camera_set_) throw std::invalid_argument("no usable camera_info has come yet");
+  CameraImage image;
+  run(Stage::kFusion, [&] {
+    if (const auto raw = message.instantiate<sensor_msgs::Image>()) {
+      image = {ToStamp(raw->header.stamp), ToGrey(*raw).clone()};
+    } else if (const auto compressed = message.instantiate<sensor_msgs::CompressedImage>()) {
+      image = {ToStamp(compressed->header.stamp), ToGrey(*compressed)};
+    }
+  });
+  if (image.grey.empty()) return;
+  pipeline->AddImage(image, static_cast<Stamp>(message.getTime().toNSec()));
+  ++images_;
+}
+
+}  // namespace scan_image_slam

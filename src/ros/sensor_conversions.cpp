@@ -1,0 +1,132 @@
+#include "scan_image_slam/ros/sensor_conversions.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace scan_image_slam {
+namespace {
+
+constexpr std::size_t kMaxBeams = 100000;
+
+Eigen::Quaterniond ToQuaternion(double x, double y, double z, double w) {
+  const Eigen::Quaterniond q(w, x, y, z);
+  const double norm = q.norm();
+  if (!(std::abs(norm - 1.0) < 0.1)) {
+    throw std::invalid_argument("the orientation is not a unit quaternion: its norm is " +
+                                std::to_string(norm));
+  }
+  return q.normalized();
+}
+
+}  // namespace
+
+Stamp ToStamp(const ros::Time& time) {
+  if (time.isZero()) throw std::invalid_argument("the stamp is zero: the driver has set none");
+  return static_cast<Stamp>(time.toNSec());
+}
+
+ros::Time ToRosTime(Stamp stamp) {
+  ros::Time time;
+  time.fromNSec(static_cast<std::uint64_t>(stamp));
+  return time;
+}
+
+LaserScan ToLaserScan(const sensor_msgs::LaserScan& message) {
+  if (message.ranges.empty()) throw std::invalid_argument("the scan has no beams");
+  if (message.ranges.size() > kMaxBeams) {
+    throw std::invalid_argument("the scan has " + std::to_string(message.ranges.size()) +
+                                " beams, at most " + std::to_string(kMaxBeams) + " are taken");
+  }
+  const bool finite = std::isfinite(message.angle_min) && std::isfinite(message.angle_increment) &&
+                      std::isfinite(message.time_increment) && std::isfinite(message.range_min) &&
+                      !std::isnan(message.range_max);
+  if (!finite) throw std::invalid_argument("the geometry of the scan is not finite");
+  if (message.angle_increment == 0.0f && message.ranges.size() > 1) {
+    throw std::invalid_argument("angle_increment is zero");
+  }
+  if (std::abs(message.angle_increment) * static_cast<double>(message.ranges.size() - 1) >
+      2.0 * M_PI + 0.1) {
+    throw std::invalid_argument(
+        "the scan covers more than a turn: angle_increment or the number of "
+        "beams is wrong");
+  }
+  LaserScan scan;
+  scan.stamp = ToStamp(message.header.stamp);
+  scan.angle_min = message.angle_min;
+  scan.angle_increment = message.angle_increment;
+  scan.time_increment = message.time_increment;
+  scan.range_min = message.range_min;
+  scan.range_max = message.range_max;
+  scan.ranges = message.ranges;
+  return scan;
+}
+
+Pose2 ToPose2(const geometry_msgs::Pose& pose) {
+  const auto& p = pose.position;
+  if (!(std::isfinite(p.x) && std::isfinite(p.y))) {
+    throw std::invalid_argument("the position is not finite");
+  }
+  const auto& o = pose.orientation;
+  const Eigen::Quaterniond q = ToQuaternion(o.x, o.y, o.z, o.w);
+  const Eigen::Vector3d forward = q * Eigen::Vector3d::UnitX();
+  return {p.x, p.y, std::atan2(forward.y(), forward.x())};
+}
+
+Eigen::Isometry3d ToIsometry(const geometry_msgs::Transform& transform) {
+  const auto& r = transform.rotation;
+  Eigen::Isometry3d isometry(ToQuaternion(r.x, r.y, r.z, r.w));
+  isometry.pretranslate(
+      Eigen::Vector3d(transform.translation.x, transform.translation.y, transform.translation.z));
+  return isometry;
+}
+
+Pose2 ToPose2(const Eigen::Isometry3d& pose) {
+  return {pose.translation().x(), pose.translation().y(),
+          std::atan2(pose.linear()(1, 0), pose.linear()(0, 0))};
+}
+
+CameraIntrinsics ToCameraIntrinsics(const sensor_msgs::CameraInfo& message) {
+  constexpr std::uint32_t kMaxSide = 16384;
+  if (message.width > kMaxSide || message.height > kMaxSide) {
+    throw std::invalid_argument("image size " + std::to_string(message.width) + " x " +
+                                std::to_string(message.height) + " is too large");
+  }
+  CameraIntrinsics intrinsics;
+  const double binning_x = std::max<std::uint32_t>(1, message.binning_x);
+  const double binning_y = std::max<std::uint32_t>(1, message.binning_y);
+  const bool whole = message.roi.width == 0 || message.roi.height == 0;
+  const double width = whole ? message.width : message.roi.width;
+  const double height = whole ? message.height : message.roi.height;
+  intrinsics.width = static_cast<int>(width / binning_x);
+  intrinsics.height = static_cast<int>(height / binning_y);
+  for (int i = 0; i < 9; ++i) intrinsics.k.val[i] = message.K[i];
+  intrinsics.k(0, 0) /= binning_x;
+  intrinsics.k(0, 2) = (intrinsics.k(0, 2) - message.roi.x_offset) / binning_x;
+  intrinsics.k(1, 1) /= binning_y;
+  intrinsics.k(1, 2) = (intrinsics.k(1, 2) - message.roi.y_offset) / binning_y;
+  intrinsics.distortion_model = message.distortion_model;
+  intrinsics.d = message.D;
+  intrinsics.Validate();
+  return intrinsics;
+}
+
+Eigen::Isometry3d ToIsometry(const SensorPose& pose) {
+  return Eigen::Translation3d(pose.x, pose.y, pose.z) *
+         Eigen::AngleAxisd(pose.yaw, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(pose.pitch, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(pose.roll, Eigen::Vector3d::UnitX());
+}
+
+Eigen::Isometry3d ToOpticalIsometry(const SensorPose& pose) {
+  Eigen::Matrix3d body_from_optical;
+  body_from_optical << 0, 0, 1,  //
+      -1, 0, 0,                  //
+      0, -1, 0;
+  return ToIsometry(pose) * Eigen::Isometry3d(body_from_optical);
+}
+
+std::string StripSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+}  // namespace scan_image_slam

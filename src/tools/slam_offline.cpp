@@ -1,0 +1,288 @@
+// Runs the three stages on a bag, in process and as fast as the machine allows.
+
+#include "package_files.h"
+#include "progress_line.h"
+#include "scan_image_slam/core/config/config_file.h"
+#include "scan_image_slam/core/evaluation/trajectory.h"
+#include "scan_image_slam/core/mapping/map_file.h"
+#include "scan_image_slam/core/mapping/map_picture.h"
+#include "scan_image_slam/core/pipeline/slam_pipeline.h"
+#include "scan_image_slam/ros/bag_input.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sys/resource.h>
+#include <time.h>
+
+namespace scan_image_slam {
+namespace {
+
+struct Arguments {
+  std::string bag;
+  std::string out;
+  std::string config = "default";
+  std::vector<std::string> settings;
+  std::string base_frame;
+  BagTopics topics;
+  bool no_images = false;
+  int threads = 1;
+};
+
+/// Milliseconds that the stages took for each scan: wall time, and processor time of this thread.
+class StageTimes {
+ public:
+  void Run(Stage stage, const std::function<void()>& work) {
+    const auto wall = std::chrono::steady_clock::now();
+    const double cpu = CpuMilliseconds();
+    work();
+    current_[static_cast<int>(stage)] +=
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - wall).count();
+    cpu_ms_ += CpuMilliseconds() - cpu;
+  }
+
+  void FinishScan() {
+    for (std::size_t i = 0; i < current_.size(); ++i) {
+      times_[i].push_back(current_[i]);
+      current_[i] = 0.0;
+    }
+  }
+
+  double cpu_ms() const { return cpu_ms_; }
+
+  nlohmann::json Report() const {
+    nlohmann::json report;
+    const std::array<const char*, 3> names = {"fusion", "match", "map"};
+    for (std::size_t i = 0; i < names.size(); ++i) report[names[i]] = Summary(times_[i]);
+    report["loop"] = Summary({});
+    return report;
+  }
+
+ private:
+  static double CpuMilliseconds() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+  }
+
+  static nlohmann::json Summary(std::vector<double> times) {
+    if (times.empty()) times.push_back(0.0);
+    std::sort(times.begin(), times.end());
+    return {{"min_ms", times.front()},
+            {"median_ms", times[times.size() / 2]},
+            {"p99_ms", times[times.size() * 99 / 100]},
+            {"max_ms", times.back()}};
+  }
+
+  std::array<double, 3> current_{};
+  std::array<std::vector<double>, 3> times_;
+  double cpu_ms_ = 0.0;
+};
+
+std::string ModeName(MatchMode mode) {
+  switch (mode) {
+    case MatchMode::kFull:
+      return "full";
+    case MatchMode::kNoCamera:
+      return "no_camera";
+    case MatchMode::kNoEncoders:
+      return "no_encoders";
+    case MatchMode::kLaserOnly:
+      return "laser_only";
+    case MatchMode::kCoasting:
+      return "coasting";
+  }
+  return "unknown";
+}
+
+/// What is kept of a run.
+struct Run {
+  Trajectory online;
+  Trajectory encoder;
+  std::map<std::string, double> seconds_in_mode{{"full", 0.0},
+                                                {"no_camera", 0.0},
+                                                {"no_encoders", 0.0},
+                                                {"laser_only", 0.0},
+                                                {"coasting", 0.0}};
+  int window_edge_hits = 0;
+
+  void Add(const PipelineResult& result) {
+    if (!online.empty()) {
+      seconds_in_mode[ModeName(result.match.mode)] +=
+          Seconds(result.pose.stamp - online.back().stamp);
+    }
+    online.push_back({result.pose.stamp, result.pose.map_from_base});
+    if (result.match.odom_from_base) {
+      encoder.push_back({result.pose.stamp, *result.match.odom_from_base});
+    }
+    if (result.match.status == MatchStatus::kOnWindowEdge) ++window_edge_hits;
+  }
+};
+
+double PeakMemoryMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// The encoders' path as it would lie in the map: beginning at the same pose as the estimate.
+std::vector<Pose2> EncoderPathInMap(const Run& run) {
+  std::vector<Pose2> path;
+  if (run.encoder.empty()) return path;
+  const Pose2 map_from_odom = run.online.front().pose * run.encoder.front().pose.Inverse();
+  for (const StampedPose& p : run.encoder) path.push_back(map_from_odom * p.pose);
+  return path;
+}
+
+void MakeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  const std::string probe = path + "/report.json";
+  std::ofstream file(probe);
+  if (error || !file) {
+    throw std::runtime_error("can't write into " + path + ": " +
+                             (error ? error.message() : std::strerror(errno)));
+  }
+}
+
+void WriteResults(const Arguments& arguments, const Run& run, const Trajectory& final_trajectory,
+                  const OccupancyGrid& grid) {
+  WriteTumFile(arguments.out + "/trajectory.tum", final_trajectory);
+  WriteTumFile(arguments.out + "/online.tum", run.online);
+  WriteTumFile(arguments.out + "/encoder.tum", run.encoder);
+  const MapImage map = ToMapImage(grid);
+  WriteMap(map, arguments.out + "/map");
+  DrawnPath estimate{"estimate", kEstimateColour, {}};
+  for (const StampedPose& p : final_trajectory) estimate.poses.push_back(p.pose);
+  const DrawnPath encoders{"encoders", kEncoderColour, EncoderPathInMap(run)};
+  const std::string picture = arguments.out + "/map.png";
+  if (!cv::imwrite(picture, DrawMap(map, {encoders, estimate}))) {
+    throw std::runtime_error("can't write " + picture);
+  }
+}
+
+SlamOptions ReadOptions(const Arguments& arguments) {
+  SlamOptions options;
+  std::vector<ParameterSet> sets = options.Parameters();
+  const bool by_name = arguments.config == "default" || arguments.config == "paper";
+  const std::string path =
+      by_name ? PackageFile("config/" + arguments.config + ".yaml") : arguments.config;
+  ApplyConfig(ReadConfigFile(path), path, &sets);
+  for (const std::string& setting : arguments.settings) {
+    const std::size_t slash = setting.find('/');
+    const std::size_t equals = setting.find('=');
+    if (slash == std::string::npos || equals == std::string::npos || slash > equals) {
+      throw ParameterError("--set " + setting + ": NODE/PARAMETER=VALUE is expected");
+    }
+    ApplyConfig({{setting.substr(0, slash),
+                  {{setting.substr(slash + 1, equals - slash - 1),
+                    ParseParameterValue(setting.substr(equals + 1))}}}},
+                "--set", &sets);
+  }
+  if (!arguments.base_frame.empty()) {
+    options.fusion_node.odometry.base_frame = arguments.base_frame;
+  }
+  return options;
+}
+
+void RunOffline(const Arguments& arguments, const SlamOptions& options) {
+  BagInput input(arguments.bag, arguments.topics, options);
+  for (const std::string& note : input.notes()) std::cerr << note << "\n";
+  MakeFolder(arguments.out);
+
+  Run run;
+  StageTimes times;
+  const auto run_stage = [&](Stage stage, const std::function<void()>& work) {
+    times.Run(stage, work);
+  };
+  SlamPipeline pipeline(
+      options,
+      [&](const PipelineResult& result) {
+        run.Add(result);
+        times.FinishScan();
+      },
+      run_stage);
+  const auto begin = std::chrono::steady_clock::now();
+  ProgressLine progress("slam_offline");
+  input.Play(&pipeline, run_stage, [&](double share) { progress.Show(share); });
+  progress.Finish();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  for (const auto& [reason, count] : input.refused()) {
+    std::cerr << "refused " << count << " x " << reason << "\n";
+  }
+  if (run.online.empty()) throw BagError(arguments.bag + ": no scan could be used");
+
+  WriteResults(arguments, run, run.online, pipeline.mapper().grid());
+  const double recorded = Seconds(run.online.back().stamp - run.online.front().stamp);
+  nlohmann::json report = {
+      {"scans", run.online.size()},
+      {"images", input.images()},
+      {"real_time_factor", recorded / std::max(1e-9, seconds)},
+      {"cpu_ms_per_scan", times.cpu_ms() / static_cast<double>(run.online.size())},
+      {"peak_memory_mb", PeakMemoryMegabytes()},
+      {"stages", times.Report()},
+      {"window_edge_hits", run.window_edge_hits},
+      {"loop_closures", 0},
+      {"dropped", pipeline.dropped()},
+  };
+  for (const auto& [name, duration] : run.seconds_in_mode) report["modes"][name + "_s"] = duration;
+  std::ofstream file(arguments.out + "/report.json");
+  file << report.dump(2) << "\n";
+  if (!file.flush()) throw std::runtime_error("can't write " + arguments.out + "/report.json");
+}
+
+int Main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Runs scan_image_slam on a bag, without a ROS master.");
+  app.add_option("--bag", arguments.bag, "bag to read")->required();
+  app.add_option("--out", arguments.out, "folder for the results; made if absent")->required();
+  app.add_option("--config", arguments.config, "default, paper, or a yaml file")
+      ->capture_default_str();
+  app.add_option("--set", arguments.settings, "NODE/PARAMETER=VALUE, over the configuration");
+  app.add_flag("--no-images", arguments.no_images, "laser and encoders only");
+  app.add_option("--threads", arguments.threads, "threads of the image processing")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
+  app.add_option("--scan-topic", arguments.topics.scan, "LaserScan (default /scan)");
+  app.add_option("--image-topic", arguments.topics.image,
+                 "Image or CompressedImage (default /image_raw)");
+  app.add_option("--camera-info-topic", arguments.topics.camera_info,
+                 "CameraInfo (default /camera_info)");
+  app.add_option("--odom-topic", arguments.topics.odom, "Odometry (default /odom)");
+  app.add_option("--base-frame", arguments.base_frame, "frame of the robot's base");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 1;
+  }
+  cv::setNumThreads(arguments.threads);
+  SlamOptions options;
+  try {
+    options = ReadOptions(arguments);
+    arguments.topics.use_images = !arguments.no_images && options.fusion_node.use_camera;
+  } catch (const std::exception& error) {
+    std::cerr << "slam_offline: " << error.what() << "\n";
+    return 1;
+  }
+  try {
+    RunOffline(arguments, options);
+  } catch (const std::exception& error) {
+    std::cerr << "slam_offline: " << error.what() << "\n";
+    return 2;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace scan_image_slam
+
+int main(int argc, char** argv) { return scan_image_slam::Main(argc, argv); }
