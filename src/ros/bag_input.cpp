@@ -306,9 +306,9 @@ void BagInput::PlayImage(const rosbag::MessageInstance& message, SlamPipeline* p
   CameraImage image;
   run(Stage::kFusion, [&] {
     if (const auto raw = message.instantiate<sensor_msgs::Image>()) {
-      image = {ToStamp(raw->header.stamp), ToGrey(*raw).clone()};
+      image = {ToStamp(raw->header.stamp), ToGrey(*raw), ToStdPointer(raw)};
     } else if (const auto compressed = message.instantiate<sensor_msgs::CompressedImage>()) {
-      image = {ToStamp(compressed->header.stamp), ToGrey(*compressed)};
+      image = {ToStamp(compressed->header.stamp), ToGrey(*compressed), nullptr};
     }
   });
   if (image.grey.empty()) return;

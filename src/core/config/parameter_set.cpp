@@ -16,6 +16,20 @@ std::string TypeOf(const ParameterValue& value) {
   return kNames[value.index()];
 }
 
+/// Yaml takes a number without a point for a whole one, and 1e-05 for text.
+std::string WithPoint(std::string number) {
+  if (number.find_first_of(".n") != std::string::npos) return number;  // also inf and nan
+  number.insert(std::min(number.find('e'), number.size()), ".0");
+  return number;
+}
+
+/// The number that a text spells, as rosparam does not read 1e-5 as one.
+bool ToNumber(const std::string& text, double* number) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  return static_cast<bool>(stream >> *number) && stream.eof();
+}
+
 std::string Join(const std::vector<std::string>& words) {
   std::string joined;
   for (const std::string& word : words) joined += (joined.empty() ? "" : ", ") + word;
@@ -39,8 +53,7 @@ std::string ToText(const ParameterValue& value) {
     text << *i;
   } else if (const double* d = std::get_if<double>(&value)) {
     text << std::setprecision(10) << *d;
-    const bool looks_whole = text.str().find_first_not_of("-0123456789") == std::string::npos;
-    if (looks_whole) text << ".0";
+    return WithPoint(text.str());
   } else {
     text << '"' << std::get<std::string>(value) << '"';
   }
@@ -126,6 +139,11 @@ void ParameterSet::Set(const std::string& name, const ParameterValue& value) {
   ParameterValue converted = value;
   if (p.type == "double" && std::holds_alternative<int>(value)) {
     converted = static_cast<double>(std::get<int>(value));
+  }
+  double number = 0.0;
+  if (p.type == "double" && std::holds_alternative<std::string>(value) &&
+      ToNumber(std::get<std::string>(value), &number)) {
+    converted = number;
   }
   if (TypeOf(converted) != p.type) {
     throw ParameterError(full_name + ": " + ToText(value) + " is of type " + TypeOf(value) +

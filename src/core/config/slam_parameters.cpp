@@ -245,6 +245,9 @@ ParameterSet MapperParameters(MapperOptions* o, MapperNodeOptions* node) {
           "between two maps");
   set.Add("trajectory_spacing", &node->trajectory_spacing, "m", kNotNegative,
           "between the poses of the paths");
+  set.Add("map_folder", &node->map_folder,
+          "folder that save_map writes to, and nothing outside it; relative paths start at the "
+          "working directory of the node (with roslaunch: ~/.ros)");
   set.Add("resolution", &o->grid.resolution, "m", {0.001, 10.0}, "side of a cell of the map");
   set.Add("update_factor_occupied", &o->grid.update_factor_occupied, "-", {0.501, 0.999},
           "probability that a cell with one hit is occupied");

@@ -48,15 +48,30 @@ Mapper::Mapper(const MapperOptions& options) : options_(options), grid_(options.
   options_.Validate();
 }
 
+void Mapper::BeginChain(const MatchedMotion& match) {
+  if (start_stamp_ && match.start_stamp < *start_stamp_) Reset();
+  Pose2 map_from_base;
+  if (!start_stamp_) {
+    if (match.odom_from_base) map_from_base = *match.odom_from_base;
+  } else if (last_.map_from_odom && match.odom_from_base) {
+    map_from_base = *last_.map_from_odom * *match.odom_from_base;
+  } else {
+    map_from_base = last_.map_from_base;
+  }
+  start_stamp_ = match.start_stamp;
+  map_from_start_ = map_from_base * match.start_from_base().Inverse();
+}
+
 MapPose Mapper::AddMatch(const MatchedMotion& match) {
-  start_from_base_ = match.start_from_base();
-  MapPose pose;
-  pose.stamp = match.stamp;
-  pose.map_from_base = map_from_start_ * start_from_base_;
-  pose.covariance = match.covariance;
-  if (match.odom_from_base)
-    pose.map_from_odom = pose.map_from_base * match.odom_from_base->Inverse();
-  return pose;
+  if (!start_stamp_ || match.start_stamp != *start_stamp_) BeginChain(match);
+  last_.stamp = match.stamp;
+  last_.map_from_base = map_from_start_ * match.start_from_base();
+  last_.covariance = match.covariance;
+  last_.map_from_odom.reset();
+  if (match.odom_from_base) {
+    last_.map_from_odom = last_.map_from_base * match.odom_from_base->Inverse();
+  }
+  return last_;
 }
 
 bool Mapper::WorthDrawing(const MatchedMotion& match, const Pose2& map_from_base) const {
@@ -77,7 +92,8 @@ void Mapper::AddModel(const FusedModel& model, const MatchedMotion& match) {
 }
 
 void Mapper::SetPose(const Pose2& map_from_base) {
-  map_from_start_ = map_from_base * start_from_base_.Inverse();
+  map_from_start_ = map_from_base * last_.map_from_base.Inverse() * map_from_start_;
+  last_.map_from_base = map_from_base;
 }
 
 }  // namespace scan_image_slam

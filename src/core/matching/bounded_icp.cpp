@@ -1,5 +1,7 @@
 #include "scan_image_slam/core/matching/bounded_icp.h"
 
+#include "scan_image_slam/core/geometry/covariance.h"
+
 #include <cmath>
 #include <stdexcept>
 
@@ -54,7 +56,9 @@ MatchedMotion BoundedIcp::Match(const FusedModel& model) {
     match.points = outcome.points;
     match.matched = outcome.matched;
     match.degenerate_direction = outcome.degenerate_direction;
-    covariance_ = outcome.covariance;
+    // From frame to frame errors add up; against the map they do not.
+    covariance_ = use_local_map ? outcome.covariance
+                                : TransportCovariance(covariance_, motion) + outcome.covariance;
     start_from_base_ = start_from_base_ * motion;
     predictor_.Update(model.stamp, motion);
   }

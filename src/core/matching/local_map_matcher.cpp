@@ -1,5 +1,7 @@
 #include "scan_image_slam/core/matching/local_map_matcher.h"
 
+#include "scan_image_slam/core/geometry/covariance.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,17 +22,6 @@ std::vector<Eigen::Vector2d> SearchPoints(const std::vector<SurfacePoint>& point
     for (std::size_t i = first; i < spaced.size(); i += kStride) ordered.push_back(spaced[i]);
   }
   return ordered;
-}
-
-/// Carries the covariance of a pose over a motion: adjoint of the motion's inverse.
-Eigen::Matrix3d Transport(const Eigen::Matrix3d& covariance, const Pose2& motion) {
-  const double c = std::cos(motion.theta);
-  const double s = std::sin(motion.theta);
-  Eigen::Matrix3d adjoint;
-  adjoint << c, s, s * motion.x - c * motion.y,  //
-      -s, c, c * motion.x + s * motion.y,        //
-      0, 0, 1;
-  return adjoint * covariance * adjoint.transpose();
 }
 
 /// Moves each point by what the base moved differently from what was thought, since its beam fired.
@@ -103,7 +94,7 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
 
   MotionPrior prior;
   prior.map_from_base = map_from_predicted;
-  prior.covariance = Transport(covariance, prediction.motion) + prediction.covariance;
+  prior.covariance = TransportCovariance(covariance, prediction.motion) + prediction.covariance;
   prior.kernel = options_.prior_kernel;
   const auto refine_from = [&](const Pose2& start) {
     return Refine(points, local_map_, edges, edge_map_, options_.noise, prior, start,

@@ -53,6 +53,7 @@ struct MapperNodeOptions {
   double tf_delay = 0.05;                  ///< transforms are stamped so far ahead [s]
   double map_update_interval = 1.0;        ///< [s]
   double trajectory_spacing = 0.05;        ///< between the poses of the paths [m]
+  std::string map_folder = "maps";         ///< the only place that save_map writes to
 };
 
 }  // namespace scan_image_slam

@@ -31,8 +31,9 @@ struct ScanImageFusionOptions {
 
 /// One picture of the camera.
 struct CameraImage {
-  Stamp stamp = 0;  ///< middle of the exposure [ns]
-  cv::Mat grey;     ///< CV_8U, of the size in the intrinsics
+  Stamp stamp = 0;                    ///< middle of the exposure [ns]
+  cv::Mat grey;                       ///< CV_8U, of the size in the intrinsics
+  std::shared_ptr<const void> owner;  ///< keeps alive what `grey` is a view of, if it is one
 };
 
 /// What the fusion saw in the last image, for pictures and tools.

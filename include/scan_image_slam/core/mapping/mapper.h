@@ -31,8 +31,11 @@ class Mapper {
  public:
   explicit Mapper(const MapperOptions& options);
 
-  /// The pose after a match. With the match's own model, the scan is drawn into the map.
+  /// The pose after a match. The first pose is that of the encoders, so that the map's frame begins
+  /// as theirs. A chain of matches that begins anew goes on from the last known pose, carried on by
+  /// the encoders; if it begins earlier than the last one, time has gone back and the map with it.
   MapPose AddMatch(const MatchedMotion& match);
+  /// Draws the scan of a match into the map, if the robot has moved or some time has passed.
   void AddModel(const FusedModel& model, const MatchedMotion& match);
 
   /// Sets where the robot is now in the map, e.g. because the user has said so.
@@ -49,8 +52,11 @@ class Mapper {
 
   MapperOptions options_;
   OccupancyGrid grid_;
+  void BeginChain(const MatchedMotion& match);
+
+  std::optional<Stamp> start_stamp_;  ///< of the chain of matches that poses come from
   Pose2 map_from_start_;
-  Pose2 start_from_base_;
+  MapPose last_;
   std::optional<Stamp> drawn_stamp_;
   Pose2 map_from_drawn_;
 };

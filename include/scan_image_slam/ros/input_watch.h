@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <ros/wall_timer.h>
+
+namespace scan_image_slam {
+
+/// Watches what a node needs, and says in plain words what is missing: on the console every five
+/// seconds until it is there, and in /diagnostics.
+class InputWatch {
+ public:
+  /// `name` of the node, for /diagnostics.
+  InputWatch(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name);
+
+  /// A topic that should come. `optional`: the node works without it, with less.
+  void Expect(const ros::Subscriber& subscriber, const std::string& type, bool optional);
+  /// The same for subscribers of other kinds; `publishers` counts those of the topic.
+  void Expect(const std::string& topic, std::function<std::uint32_t()> publishers,
+              const std::string& type, bool optional);
+  /// A message has come on a topic (its resolved name).
+  void Arrived(const std::string& topic);
+
+  /// A condition that keeps the node from its work; an empty text means that it is over.
+  void SetProblem(const std::string& key, const std::string& text);
+
+  /// A message that could not be used: counted, and told at most every five seconds.
+  void Refuse(const std::string& topic, const std::string& reason);
+
+  /// More to be told in /diagnostics.
+  void AddValue(const std::string& key, std::function<std::string()> value);
+
+ private:
+  struct Topic {
+    std::function<std::uint32_t()> publishers;
+    std::string type;
+    bool optional = false;
+    int messages = 0;
+    ros::WallTime last;
+  };
+  void Tell(const ros::WallTimerEvent&);
+  std::string DescribeTopic(const std::string& name, const Topic& topic) const;
+  void Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  diagnostic_updater::Updater updater_;
+  std::map<std::string, Topic> topics_;
+  std::map<std::string, std::string> problems_;
+  std::map<std::string, int> refused_;
+  std::map<std::string, std::function<std::string()>> values_;
+  ros::WallTime begin_;
+  ros::WallTimer tell_timer_;
+  ros::WallTimer diagnose_timer_;
+};
+
+}  // namespace scan_image_slam

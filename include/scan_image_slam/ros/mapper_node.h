@@ -1,0 +1,76 @@
+#pragma once
+
+#include "scan_image_slam/core/config/slam_parameters.h"
+#include "scan_image_slam/core/mapping/mapper.h"
+#include "scan_image_slam/ros/input_watch.h"
+#include "scan_image_slam/ros/map_publisher.h"
+#include "scan_image_slam/ros/path_publisher.h"
+#include "scan_image_slam/ros/transform_publisher.h"
+#include <scan_image_slam/IcpModel.h>
+#include <scan_image_slam/SaveMap.h>
+#include <scan_image_slam/ScanMatch.h>
+
+#include <optional>
+#include <string>
+
+#include <geometry_msgs/PoseWithCovarianceStamped.h>
+#include <message_filters/subscriber.h>
+#include <message_filters/time_synchronizer.h>
+#include <nav_msgs/GetMap.h>
+#include <nav_msgs/Path.h>
+#include <ros/node_handle.h>
+#include <std_srvs/Empty.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+namespace scan_image_slam {
+
+/// Node around Mapper: `scan_match`, `icp_model` and `initialpose` in; `pose`, `trajectory`,
+/// `encoder_trajectory`, `map`, `map_metadata`, `map_updates` and TF out; services `dynamic_map`,
+/// `reset`, `pause` and `save_map`.
+class MapperNode {
+ public:
+  /// Throws ParameterError or std::invalid_argument if the configuration is wrong.
+  MapperNode(ros::NodeHandle node, ros::NodeHandle private_node);
+
+ private:
+  struct Options {
+    MapperOptions mapper;
+    MapperNodeOptions node;
+  };
+  static Options ReadOptions(const ros::NodeHandle& private_node);
+  void OnMatch(const ScanMatchConstPtr& message);
+  void OnMatchedModel(const IcpModelConstPtr& model, const ScanMatchConstPtr& match);
+  void OnInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
+  bool GetMap(nav_msgs::GetMap::Request& request, nav_msgs::GetMap::Response& response);
+  bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool Pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool SaveMap(SaveMapRequest& request, SaveMapResponse& response);
+  void PublishPose(const MapPose& pose);
+  void PublishMap();
+
+  Options options_;
+  Mapper mapper_;
+  bool paused_ = false;
+  bool has_encoders_ = false;
+  std::optional<MapPose> last_pose_;
+  InputWatch watch_;
+  TransformPublisher transform_publisher_;
+  MapPublisher map_publisher_;
+  PathPublisher trajectory_;
+  PathPublisher encoder_trajectory_;
+  ros::Publisher pose_publisher_;
+  ros::Publisher command_publisher_;
+  ros::ServiceServer get_map_service_;
+  ros::ServiceServer reset_service_;
+  ros::ServiceServer pause_service_;
+  ros::ServiceServer save_map_service_;
+  ros::Subscriber match_subscriber_;
+  ros::Subscriber initial_pose_subscriber_;
+  message_filters::Subscriber<IcpModel> paired_model_subscriber_;
+  message_filters::Subscriber<ScanMatch> paired_match_subscriber_;
+  message_filters::TimeSynchronizer<IcpModel, ScanMatch> pairs_;
+  ros::WallTimer map_timer_;
+};
+
+}  // namespace scan_image_slam

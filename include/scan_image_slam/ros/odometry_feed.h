@@ -1,0 +1,38 @@
+#pragma once
+
+#include "scan_image_slam/core/config/node_options.h"
+#include "scan_image_slam/core/geometry/pose2.h"
+#include "scan_image_slam/core/sensor/stamp.h"
+#include "scan_image_slam/ros/input_watch.h"
+
+#include <functional>
+
+#include <nav_msgs/Odometry.h>
+#include <ros/node_handle.h>
+#include <tf2_ros/buffer.h>
+
+namespace scan_image_slam {
+
+/// Brings the encoders' poses, from the topic odom or from TF, to a node.
+class OdometryFeed {
+ public:
+  using OnPose = std::function<void(Stamp, const Pose2& odom_from_base)>;
+  /// `tf` and `watch` must outlive the feed.
+  OdometryFeed(ros::NodeHandle node, const OdometryInput& input, const tf2_ros::Buffer* tf,
+               InputWatch* watch, OnPose on_pose);
+
+ private:
+  void OnOdometry(const nav_msgs::OdometryConstPtr& message);
+  void PollTransform();
+
+  OdometryInput input_;
+  const tf2_ros::Buffer* tf_;
+  InputWatch* watch_;
+  OnPose on_pose_;
+  ros::Subscriber subscriber_;
+  ros::WallTimer timer_;
+  ros::WallTime last_message_;
+  ros::Time last_transform_;
+};
+
+}  // namespace scan_image_slam

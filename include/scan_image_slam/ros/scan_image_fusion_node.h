@@ -1,0 +1,72 @@
+#pragma once
+
+#include "scan_image_slam/core/config/slam_parameters.h"
+#include "scan_image_slam/core/fusion/scan_image_fusion.h"
+#include "scan_image_slam/core/sensor/odometry_gate.h"
+#include "scan_image_slam/ros/input_watch.h"
+#include "scan_image_slam/ros/odometry_feed.h"
+#include "scan_image_slam/ros/sensor_mount.h"
+#include "scan_image_slam/ros/time_guard.h"
+
+#include <memory>
+#include <string>
+
+#include <image_transport/image_transport.h>
+#include <ros/node_handle.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/LaserScan.h>
+#include <tf2_ros/transform_listener.h>
+
+namespace scan_image_slam {
+
+/// Node around ScanImageFusion: `scan`, `image_raw`, `camera_info`, `odom` and TF in, `icp_model`
+/// out; on demand `fusion/image` and `fusion/edges`.
+class ScanImageFusionNode {
+ public:
+  /// Throws ParameterError or std::invalid_argument if the configuration is wrong.
+  ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle private_node);
+
+ private:
+  struct Options {
+    ScanImageFusionOptions fusion;
+    ScanImageFusionNodeOptions node;
+  };
+  static Options ReadOptions(const ros::NodeHandle& private_node);
+  void SubscribeCamera(ros::NodeHandle node);
+  void OnScan(const sensor_msgs::LaserScanConstPtr& message);
+  void OnCameraInfo(const sensor_msgs::CameraInfoConstPtr& message);
+  void OnImage(const sensor_msgs::ImageConstPtr& message);
+  void OnCompressedImage(const sensor_msgs::CompressedImageConstPtr& message);
+  void OnOdometry(Stamp stamp, const Pose2& odom_from_base);
+  void AddImage(const CameraImage& image);
+  void ReleaseScans();
+  void Publish(const FusedModel& model);
+  void PublishPicture(const FusedModel& model);
+  void PublishEdges(const FusedModel& model);
+  void StartOver();
+
+  Options options_;
+  ScanImageFusion fusion_;
+  OdometryGate<LaserScan> gate_;
+  InputWatch watch_;
+  tf2_ros::Buffer tf_;
+  tf2_ros::TransformListener tf_listener_;
+  SensorMount laser_mount_;
+  SensorMount camera_mount_;
+  TimeGuard time_guard_;
+  std::string camera_info_text_;  ///< the intrinsics in use, to notice others
+  int stale_scans_ = 0;
+
+  ros::Publisher model_publisher_;
+  ros::Publisher edges_publisher_;
+  image_transport::Publisher picture_publisher_;
+  ros::Subscriber scan_subscriber_;
+  ros::Subscriber camera_info_subscriber_;
+  ros::Subscriber compressed_subscriber_;
+  image_transport::Subscriber image_subscriber_;
+  std::unique_ptr<OdometryFeed> odometry_;
+  ros::WallTimer release_timer_;
+};
+
+}  // namespace scan_image_slam

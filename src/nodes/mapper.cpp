@@ -1,0 +1,6 @@
+#include "scan_image_slam/ros/mapper_node.h"
+#include "scan_image_slam/ros/run_node.h"
+
+int main(int argc, char** argv) {
+  return scan_image_slam::RunNode<scan_image_slam::MapperNode>(argc, argv, "mapper");
+}

@@ -1,0 +1,158 @@
+#include "scan_image_slam/ros/bounded_icp_node.h"
+
+#include "scan_image_slam/ros/node_parameters.h"
+#include "scan_image_slam/ros/sensor_conversions.h"
+#include "scan_image_slam/ros/slam_messages.h"
+#include <scan_image_slam/ScanMatch.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include <ros/console.h>
+#include <visualization_msgs/MarkerArray.h>
+
+namespace scan_image_slam {
+namespace {
+
+constexpr std::uint32_t kModelQueue = 20;
+constexpr std::size_t kMaxWaitingModels = 20;
+
+Stamp SteadyNow() { return static_cast<Stamp>(ros::SteadyTime::now().toNSec()); }
+
+const char* StatusText(MatchStatus status) {
+  switch (status) {
+    case MatchStatus::kFirst:
+      return "first scan";
+    case MatchStatus::kMatched:
+      return "matched";
+    case MatchStatus::kOnWindowEdge:
+      return "on window edge: the encoders are more wrong than the window allows";
+    case MatchStatus::kDegenerate:
+      return "degenerate: one direction is left to the prediction, as in a plain corridor";
+    case MatchStatus::kTooFewPoints:
+      return "too few points: the prediction is kept";
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+BoundedIcpNode::Options BoundedIcpNode::ReadOptions(const ros::NodeHandle& private_node) {
+  Options options;
+  ParameterSet set = BoundedIcpParameters(&options.bounded_icp, &options.node);
+  ReadParameters(private_node, &set);
+  return options;
+}
+
+BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : options_(ReadOptions(private_node)),
+      bounded_icp_(options_.bounded_icp),
+      gate_(options_.node.odometry.max_wait, kMaxWaitingModels),
+      watch_(node, private_node, "bounded_icp"),
+      tf_listener_(tf_, node) {
+  match_publisher_ = node.advertise<ScanMatch>("scan_match", kModelQueue);
+  window_publisher_ = node.advertise<visualization_msgs::MarkerArray>("search_window", 1);
+  odometry_ = std::make_unique<OdometryFeed>(
+      node, options_.node.odometry, &tf_, &watch_,
+      [this](Stamp stamp, const Pose2& pose) { OnOdometry(stamp, pose); });
+  command_subscriber_ = node.subscribe("syscommand", 1, &BoundedIcpNode::OnCommand, this);
+  model_subscriber_ = node.subscribe("icp_model", kModelQueue, &BoundedIcpNode::OnModel, this,
+                                     ros::TransportHints().tcpNoDelay());
+  watch_.Expect(model_subscriber_, "scan_image_slam/IcpModel", false);
+  watch_.AddValue("last match", [this] { return StatusText(last_match_.status); });
+  watch_.AddValue("matches", [this] { return std::to_string(matches_); });
+  watch_.AddValue("window edge hits", [this] { return std::to_string(window_edge_hits_); });
+  watch_.AddValue("models dropped", [this] { return std::to_string(gate_.dropped()); });
+  release_timer_ = node.createWallTimer(ros::WallDuration(0.005),
+                                        [this](const ros::WallTimerEvent&) { ReleaseModels(); });
+}
+
+void BoundedIcpNode::OnOdometry(Stamp stamp, const Pose2& odom_from_base) {
+  bounded_icp_.AddOdometry(stamp, odom_from_base);
+  ReleaseModels();
+}
+
+void BoundedIcpNode::OnCommand(const std_msgs::StringConstPtr& message) {
+  if (message->data == "reset") StartOver("reset by command");
+}
+
+void BoundedIcpNode::StartOver(const char* reason) {
+  ROS_WARN_STREAM(reason << ": starting over");
+  bounded_icp_.Reset();
+  gate_.Clear();
+}
+
+void BoundedIcpNode::OnModel(const IcpModelConstPtr& message) {
+  watch_.Arrived(model_subscriber_.getTopic());
+  try {
+    FusedModel model = FromMessage(*message);
+    switch (time_guard_.Check(model.stamp)) {
+      case TimeGuard::Verdict::kStale:
+        return;
+      case TimeGuard::Verdict::kRestarts:
+        StartOver("time went back");
+        break;
+      case TimeGuard::Verdict::kAdvances:
+        break;
+    }
+    const Stamp stamp = model.stamp;
+    gate_.Push(std::move(model), stamp, SteadyNow());
+    ReleaseModels();
+  } catch (const std::invalid_argument& error) {
+    watch_.Refuse(model_subscriber_.getTopic(), error.what());
+  }
+}
+
+void BoundedIcpNode::ReleaseModels() {
+  while (const auto model = gate_.Pop(SteadyNow(), bounded_icp_.odometry())) {
+    Publish(bounded_icp_.Match(*model));
+  }
+}
+
+void BoundedIcpNode::Publish(const MatchedMotion& match) {
+  last_match_ = match;
+  ++matches_;
+  if (match.status == MatchStatus::kOnWindowEdge) ++window_edge_hits_;
+  match_publisher_.publish(ToMessage(match, options_.node.odometry.base_frame));
+  if (window_publisher_.getNumSubscribers() > 0) PublishWindow(match);
+}
+
+/// The window around the prediction, magnified so that it can be seen, and where the result lies.
+void BoundedIcpNode::PublishWindow(const MatchedMotion& match) {
+  constexpr double kMagnification = 10.0;
+  visualization_msgs::Marker marker;
+  marker.header.stamp = ToRosTime(match.stamp);
+  marker.header.frame_id = options_.node.odometry.base_frame;
+  marker.ns = "window_x10";
+  marker.type = visualization_msgs::Marker::LINE_STRIP;
+  marker.scale.x = 0.01;
+  marker.pose.orientation.w = 1.0;
+  marker.color.a = 1.0f;
+  marker.color.r = match.status == MatchStatus::kOnWindowEdge ? 1.0f : 0.2f;
+  marker.color.g = 0.8f;
+  const double d = kMagnification * match.window.half_distance;
+  const double half_angle = std::min(M_PI, kMagnification * match.window.half_angle);
+  constexpr int kSteps = 16;
+  for (int i = -kSteps; i <= kSteps; ++i) {
+    geometry_msgs::Point point;
+    point.x = d * std::cos(half_angle * i / kSteps);
+    point.y = d * std::sin(half_angle * i / kSteps);
+    marker.points.push_back(point);
+  }
+  visualization_msgs::Marker result = marker;
+  result.ns = "deviation_x10";
+  result.type = visualization_msgs::Marker::ARROW;
+  result.points.clear();
+  result.pose.position.x = kMagnification * match.deviation.distance;
+  result.pose.position.y = kMagnification * match.deviation.lateral;
+  result.pose.orientation.z = std::sin(kMagnification * match.deviation.angle / 2.0);
+  result.pose.orientation.w = std::cos(kMagnification * match.deviation.angle / 2.0);
+  result.scale.x = 0.3;
+  result.scale.y = 0.03;
+  result.scale.z = 0.03;
+  visualization_msgs::MarkerArray array;
+  array.markers = {marker, result};
+  window_publisher_.publish(array);
+}
+
+}  // namespace scan_image_slam

@@ -1,0 +1,112 @@
+#include "scan_image_slam/ros/input_watch.h"
+
+#include <utility>
+
+#include <ros/console.h>
+
+namespace scan_image_slam {
+namespace {
+
+constexpr double kTellPeriod = 5.0;      // [s]
+constexpr double kFirstTell = 3.0;       // so that a missing input is named within five seconds [s]
+constexpr double kDiagnosePeriod = 1.0;  // [s]
+constexpr double kSilence = 2.0;         // after which a topic counts as gone [s]
+
+}  // namespace
+
+InputWatch::InputWatch(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name)
+    : updater_(node, private_node, "/" + name), begin_(ros::WallTime::now()) {
+  updater_.setHardwareID("none");
+  updater_.add("inputs", this, &InputWatch::Diagnose);
+  tell_timer_ = node.createWallTimer(ros::WallDuration(1.0), &InputWatch::Tell, this);
+  diagnose_timer_ =
+      node.createWallTimer(ros::WallDuration(kDiagnosePeriod),
+                           [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+}
+
+void InputWatch::Expect(const ros::Subscriber& subscriber, const std::string& type, bool optional) {
+  Expect(
+      subscriber.getTopic(), [subscriber] { return subscriber.getNumPublishers(); }, type,
+      optional);
+}
+
+void InputWatch::Expect(const std::string& topic, std::function<std::uint32_t()> publishers,
+                        const std::string& type, bool optional) {
+  topics_[topic] = {std::move(publishers), type, optional, 0, ros::WallTime()};
+}
+
+void InputWatch::Arrived(const std::string& topic) {
+  Topic& t = topics_[topic];
+  ++t.messages;
+  t.last = ros::WallTime::now();
+}
+
+void InputWatch::SetProblem(const std::string& key, const std::string& text) {
+  const auto known = problems_.find(key);
+  if (text.empty()) {
+    if (known == problems_.end()) return;
+    ROS_INFO_STREAM(key << ": all right now");
+    problems_.erase(known);
+    return;
+  }
+  if (known == problems_.end()) ROS_WARN_STREAM(key << ": " << text);
+  problems_[key] = text;
+}
+
+void InputWatch::Refuse(const std::string& topic, const std::string& reason) {
+  ++refused_[topic + ": " + reason];
+  ROS_WARN_STREAM_THROTTLE(kTellPeriod, topic << ": a message was not used: " << reason);
+}
+
+void InputWatch::AddValue(const std::string& key, std::function<std::string()> value) {
+  values_[key] = std::move(value);
+}
+
+std::string InputWatch::DescribeTopic(const std::string& name, const Topic& topic) const {
+  const std::uint32_t publishers = topic.publishers();
+  const std::string what = "topic " + name + " (" + topic.type + "): ";
+  if (topic.messages == 0) {
+    return what + (publishers == 0 ? "nobody publishes it; check the name, or remap it"
+                                   : "it has a publisher, but no message has come");
+  }
+  return what + "no message for " +
+         std::to_string(static_cast<int>((ros::WallTime::now() - topic.last).toSec())) + " s";
+}
+
+void InputWatch::Tell(const ros::WallTimerEvent& event) {
+  const double age = (event.current_real - begin_).toSec();
+  if (age < kFirstTell) return;
+  begin_ = event.current_real - ros::WallDuration(kFirstTell - kTellPeriod);
+  if (ros::Time::isSimTime() && ros::Time::now().isZero()) {
+    ROS_WARN("use_sim_time is set, but nothing publishes /clock (rosbag play --clock does)");
+  }
+  for (const auto& [name, topic] : topics_) {
+    if (topic.messages > 0 && (event.current_real - topic.last).toSec() < kSilence) continue;
+    const std::string text = "waiting for " + DescribeTopic(name, topic);
+    if (topic.optional) {
+      ROS_INFO_STREAM(text << " (optional)");
+    } else {
+      ROS_WARN_STREAM(text);
+    }
+  }
+  for (const auto& [key, text] : problems_) ROS_WARN_STREAM(key << ": " << text);
+}
+
+void InputWatch::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  status.summary(DiagnosticStatus::OK, "working");
+  for (const auto& [name, topic] : topics_) {
+    const bool alive = topic.messages > 0 && (ros::WallTime::now() - topic.last).toSec() < kSilence;
+    status.add(name + " messages", topic.messages);
+    if (alive) continue;
+    status.mergeSummary(topic.optional ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR,
+                        "waiting for " + DescribeTopic(name, topic));
+  }
+  for (const auto& [key, text] : problems_) {
+    status.mergeSummary(DiagnosticStatus::WARN, key + ": " + text);
+  }
+  for (const auto& [reason, count] : refused_) status.add("refused: " + reason, count);
+  for (const auto& [key, value] : values_) status.add(key, value());
+}
+
+}  // namespace scan_image_slam

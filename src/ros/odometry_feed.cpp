@@ -1,0 +1,58 @@
+#include "scan_image_slam/ros/odometry_feed.h"
+
+#include "scan_image_slam/ros/sensor_conversions.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include <tf2/exceptions.h>
+
+namespace scan_image_slam {
+namespace {
+
+constexpr double kPollPeriod = 0.01;   // of the transform [s]
+constexpr double kTopicSilence = 1.0;  // after which TF is looked at [s]
+constexpr std::uint32_t kQueue = 100;  // readings are small and none should be lost
+
+}  // namespace
+
+OdometryFeed::OdometryFeed(ros::NodeHandle node, const OdometryInput& input,
+                           const tf2_ros::Buffer* tf, InputWatch* watch, OnPose on_pose)
+    : input_(input), tf_(tf), watch_(watch), on_pose_(std::move(on_pose)) {
+  if (input_.source == OdometrySource::kAuto || input_.source == OdometrySource::kTopic) {
+    subscriber_ = node.subscribe("odom", kQueue, &OdometryFeed::OnOdometry, this,
+                                 ros::TransportHints().tcpNoDelay());
+    watch_->Expect(subscriber_, "nav_msgs/Odometry", true);
+  }
+  if (input_.source == OdometrySource::kAuto || input_.source == OdometrySource::kTf) {
+    timer_ = node.createWallTimer(ros::WallDuration(kPollPeriod),
+                                  [this](const ros::WallTimerEvent&) { PollTransform(); });
+  }
+}
+
+void OdometryFeed::OnOdometry(const nav_msgs::OdometryConstPtr& message) {
+  watch_->Arrived(subscriber_.getTopic());
+  last_message_ = ros::WallTime::now();
+  try {
+    on_pose_(ToStamp(message->header.stamp), ToPose2(message->pose.pose));
+  } catch (const std::invalid_argument& error) {
+    watch_->Refuse(subscriber_.getTopic(), error.what());
+  }
+}
+
+void OdometryFeed::PollTransform() {
+  if ((ros::WallTime::now() - last_message_).toSec() < kTopicSilence) return;
+  try {
+    const geometry_msgs::TransformStamped transform = tf_->lookupTransform(
+        StripSlash(input_.odom_frame), StripSlash(input_.base_frame), ros::Time(0));
+    if (transform.header.stamp == last_transform_) return;
+    last_transform_ = transform.header.stamp;
+    on_pose_(ToStamp(transform.header.stamp), ToPose2(ToIsometry(transform.transform)));
+  } catch (const tf2::TransformException&) {
+    // Not there yet: the node runs without encoders until it is, and says so.
+  } catch (const std::invalid_argument& error) {
+    watch_->Refuse(input_.odom_frame + " -> " + input_.base_frame, error.what());
+  }
+}
+
+}  // namespace scan_image_slam

@@ -1,0 +1,219 @@
+#include "scan_image_slam/ros/scan_image_fusion_node.h"
+
+#include "scan_image_slam/core/fusion/fusion_picture.h"
+#include "scan_image_slam/ros/image_conversion.h"
+#include "scan_image_slam/ros/node_parameters.h"
+#include "scan_image_slam/ros/sensor_conversions.h"
+#include "scan_image_slam/ros/slam_messages.h"
+#include <scan_image_slam/IcpModel.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include <cv_bridge/cv_bridge.h>
+#include <ros/console.h>
+#include <visualization_msgs/MarkerArray.h>
+
+namespace scan_image_slam {
+namespace {
+
+constexpr std::uint32_t kScanQueue = 5;
+constexpr std::uint32_t kImageQueue = 2;
+constexpr std::uint32_t kModelQueue = 20;
+constexpr std::size_t kMaxWaitingScans = 20;
+constexpr double kEdgeHeight = 1.0;  // of a drawn edge [m]
+
+Stamp SteadyNow() { return static_cast<Stamp>(ros::SteadyTime::now().toNSec()); }
+
+std_msgs::ColorRGBA EdgeColour(int sign) {
+  std_msgs::ColorRGBA colour;
+  colour.r = sign > 0 ? 1.0f : 0.0f;
+  colour.g = sign > 0 ? 0.55f : 0.78f;
+  colour.b = sign > 0 ? 0.0f : 1.0f;
+  colour.a = 1.0f;
+  return colour;
+}
+
+}  // namespace
+
+ScanImageFusionNode::Options ScanImageFusionNode::ReadOptions(const ros::NodeHandle& private_node) {
+  Options options;
+  ParameterSet set = FusionParameters(&options.fusion, &options.node);
+  ReadParameters(private_node, &set);
+  options.fusion.Validate();
+  return options;
+}
+
+ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : options_(ReadOptions(private_node)),
+      fusion_(options_.fusion),
+      gate_(options_.node.odometry.max_wait, kMaxWaitingScans),
+      watch_(node, private_node, "scan_image_fusion"),
+      tf_listener_(tf_, node),
+      laser_mount_("laser", options_.node.laser, false, options_.node.odometry.base_frame, &tf_,
+                   &watch_),
+      camera_mount_("camera", options_.node.camera, true, options_.node.odometry.base_frame, &tf_,
+                    &watch_) {
+  model_publisher_ = node.advertise<IcpModel>("icp_model", kModelQueue);
+  edges_publisher_ = node.advertise<visualization_msgs::MarkerArray>("fusion/edges", 1);
+  picture_publisher_ = image_transport::ImageTransport(node).advertise("fusion/image", 1);
+
+  odometry_ = std::make_unique<OdometryFeed>(
+      node, options_.node.odometry, &tf_, &watch_,
+      [this](Stamp stamp, const Pose2& pose) { OnOdometry(stamp, pose); });
+  if (options_.node.use_camera) SubscribeCamera(node);
+  scan_subscriber_ = node.subscribe("scan", kScanQueue, &ScanImageFusionNode::OnScan, this,
+                                    ros::TransportHints().tcpNoDelay());
+  watch_.Expect(scan_subscriber_, "sensor_msgs/LaserScan", false);
+  watch_.AddValue("scans with stamps that do not advance",
+                  [this] { return std::to_string(stale_scans_); });
+  watch_.AddValue("scans dropped while waiting for encoders",
+                  [this] { return std::to_string(gate_.dropped()); });
+  // Scans that wait for the encoders are looked at again while nothing arrives.
+  release_timer_ = node.createWallTimer(ros::WallDuration(0.005),
+                                        [this](const ros::WallTimerEvent&) { ReleaseScans(); });
+}
+
+void ScanImageFusionNode::SubscribeCamera(ros::NodeHandle node) {
+  camera_info_subscriber_ =
+      node.subscribe("camera_info", kImageQueue, &ScanImageFusionNode::OnCameraInfo, this);
+  watch_.Expect(camera_info_subscriber_, "sensor_msgs/CameraInfo", true);
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  if (options_.node.image_transport == "compressed") {
+    // Not every distribution has the plugin for it.
+    compressed_subscriber_ = node.subscribe("image_raw/compressed", kImageQueue,
+                                            &ScanImageFusionNode::OnCompressedImage, this, hints);
+    watch_.Expect(compressed_subscriber_, "sensor_msgs/CompressedImage", true);
+    return;
+  }
+  try {
+    image_subscriber_ = image_transport::ImageTransport(node).subscribe(
+        "image_raw", kImageQueue, &ScanImageFusionNode::OnImage, this,
+        image_transport::TransportHints(options_.node.image_transport, hints));
+  } catch (const image_transport::TransportLoadException& error) {
+    throw ParameterError("scan_image_fusion/image_transport: " + std::string(error.what()));
+  }
+  watch_.Expect(
+      image_subscriber_.getTopic(), [this] { return image_subscriber_.getNumPublishers(); },
+      "sensor_msgs/Image", true);
+}
+
+void ScanImageFusionNode::OnOdometry(Stamp stamp, const Pose2& odom_from_base) {
+  if (fusion_.AddOdometry(stamp, odom_from_base) == OdometryBuffer::Result::kReset) {
+    ROS_WARN("the odometry jumped: taken as a reset of the encoders, not as a motion");
+  }
+  ReleaseScans();
+}
+
+void ScanImageFusionNode::OnScan(const sensor_msgs::LaserScanConstPtr& message) {
+  watch_.Arrived(scan_subscriber_.getTopic());
+  try {
+    const LaserScan scan = ToLaserScan(*message);
+    switch (time_guard_.Check(scan.stamp)) {
+      case TimeGuard::Verdict::kStale:
+        ++stale_scans_;
+        return;
+      case TimeGuard::Verdict::kRestarts:
+        StartOver();
+        break;
+      case TimeGuard::Verdict::kAdvances:
+        break;
+    }
+    if (!laser_mount_.Update(message->header.frame_id)) return;
+    if (laser_mount_.changed()) fusion_.SetLaser(LaserMount::From(laser_mount_.base_from_sensor()));
+    gate_.Push(scan, scan.stamp, SteadyNow());
+    ReleaseScans();
+  } catch (const std::invalid_argument& error) {
+    watch_.Refuse(scan_subscriber_.getTopic(), error.what());
+  }
+}
+
+void ScanImageFusionNode::StartOver() {
+  ROS_WARN("time went back: starting over");
+  fusion_.Reset();
+  gate_.Clear();
+}
+
+void ScanImageFusionNode::OnCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
+  const std::string topic = camera_info_subscriber_.getTopic();
+  watch_.Arrived(topic);
+  try {
+    const bool known = camera_mount_.Update(message->header.frame_id);
+    sensor_msgs::CameraInfo calibration = *message;
+    calibration.header = std_msgs::Header();
+    std::ostringstream text;
+    text << calibration;
+    if (!known || (!camera_mount_.changed() && text.str() == camera_info_text_)) return;
+    fusion_.SetCamera(ToCameraIntrinsics(*message), camera_mount_.base_from_sensor());
+    camera_info_text_ = text.str();
+    watch_.SetProblem(topic, "");
+  } catch (const std::invalid_argument& error) {
+    watch_.SetProblem(topic, std::string(error.what()) + "; going on without the camera");
+  }
+}
+
+void ScanImageFusionNode::OnImage(const sensor_msgs::ImageConstPtr& message) {
+  watch_.Arrived(image_subscriber_.getTopic());
+  if (!fusion_.has_camera()) return;
+  try {
+    AddImage({ToStamp(message->header.stamp), ToGrey(*message), ToStdPointer(message)});
+  } catch (const std::invalid_argument& error) {
+    watch_.Refuse(image_subscriber_.getTopic(), error.what());
+  }
+}
+
+void ScanImageFusionNode::OnCompressedImage(const sensor_msgs::CompressedImageConstPtr& message) {
+  watch_.Arrived(compressed_subscriber_.getTopic());
+  if (!fusion_.has_camera()) return;
+  try {
+    AddImage({ToStamp(message->header.stamp), ToGrey(*message), nullptr});
+  } catch (const std::invalid_argument& error) {
+    watch_.Refuse(compressed_subscriber_.getTopic(), error.what());
+  }
+}
+
+void ScanImageFusionNode::AddImage(const CameraImage& image) { fusion_.AddImage(image); }
+
+void ScanImageFusionNode::ReleaseScans() {
+  while (const auto scan = gate_.Pop(SteadyNow(), fusion_.odometry())) Publish(fusion_.Fuse(*scan));
+}
+
+void ScanImageFusionNode::Publish(const FusedModel& model) {
+  model_publisher_.publish(ToMessage(model, options_.node.odometry.base_frame));
+  if (!model.has_image) return;
+  if (picture_publisher_.getNumSubscribers() > 0) PublishPicture(model);
+  if (edges_publisher_.getNumSubscribers() > 0) PublishEdges(model);
+}
+
+void ScanImageFusionNode::PublishPicture(const FusedModel& model) {
+  cv_bridge::CvImage picture;
+  picture.header.stamp = ToRosTime(fusion_.evidence().image.stamp);
+  picture.encoding = "bgr8";
+  picture.image = DrawFusion(fusion_, model);
+  picture_publisher_.publish(picture.toImageMsg());
+}
+
+void ScanImageFusionNode::PublishEdges(const FusedModel& model) {
+  visualization_msgs::Marker marker;
+  marker.header.stamp = ToRosTime(model.stamp);
+  marker.header.frame_id = options_.node.odometry.base_frame;
+  marker.ns = "edges";
+  marker.type = visualization_msgs::Marker::LINE_LIST;
+  marker.scale.x = 0.02;
+  marker.pose.orientation.w = 1.0;
+  marker.lifetime = ros::Duration(0.2);
+  for (const ModelEdge& edge : model.edges) {
+    geometry_msgs::Point point;
+    point.x = edge.point().x();
+    point.y = edge.point().y();
+    marker.points.push_back(point);
+    point.z = kEdgeHeight;
+    marker.points.push_back(point);
+    marker.colors.insert(marker.colors.end(), 2, EdgeColour(edge.sign));
+  }
+  visualization_msgs::MarkerArray array;
+  array.markers.push_back(marker);
+  edges_publisher_.publish(array);
+}
+
+}  // namespace scan_image_slam
