@@ -1,6 +1,5 @@
 // Runs the three stages on a bag, in process and as fast as the machine allows.
 
-#include "package_files.h"
 #include "progress_line.h"
 #include "scan_image_slam/core/config/config_file.h"
 #include "scan_image_slam/core/evaluation/trajectory.h"
@@ -8,6 +7,7 @@
 #include "scan_image_slam/core/mapping/map_picture.h"
 #include "scan_image_slam/core/pipeline/slam_pipeline.h"
 #include "scan_image_slam/ros/bag_input.h"
+#include "scan_image_slam/ros/package_files.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -9,4 +9,8 @@ namespace scan_image_slam {
 /// Throws std::runtime_error, naming both places, if it is in neither.
 std::string PackageFile(const std::string& relative);
 
+/// Path of a world: that of a file, or the name of a shipped one (e.g. corridor). Throws
+/// std::runtime_error if there is none.
+std::string FindWorld(const std::string& world);
+
 }  // namespace scan_image_slam

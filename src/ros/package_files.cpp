@@ -1,4 +1,4 @@
-#include "package_files.h"
+#include "scan_image_slam/ros/package_files.h"
 
 #include <filesystem>
 #include <stdexcept>
@@ -18,6 +18,14 @@ std::string PackageFile(const std::string& relative) {
   }
   throw std::runtime_error("the package's file " + relative + " is neither at " +
                            installed.string() + " nor at " + source.string());
+}
+
+std::string FindWorld(const std::string& world) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(world, ignored)) return world;
+  if (world.find('/') != std::string::npos) throw std::runtime_error(world + " does not exist");
+  const bool has_ending = std::filesystem::path(world).extension() == ".yaml";
+  return PackageFile("config/worlds/" + world + (has_ending ? "" : ".yaml"));
 }
 
 }  // namespace scan_image_slam

@@ -1,0 +1,12 @@
+# To be sourced by the other scripts: the programs of the distribution come first, whatever else is
+# installed, because another python3 breaks catkin and the ROS tools.
+export PATH=/usr/bin:/usr/sbin:/bin:/sbin
+unset PYTHONPATH PYTHONHOME
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+if [ -f /opt/ros/noetic/setup.bash ]; then
+  set +u
+  . /opt/ros/noetic/setup.bash
+  set -u
+fi
+# Two processes of the compiler fit into the memory of small machines.
+jobs=$(nproc)

@@ -1,0 +1,89 @@
+#include "scan_image_slam/ros/robot_simulator_node.h"
+
+#include "scan_image_slam/ros/package_files.h"
+#include "scan_image_slam/ros/simulation_messages.h"
+
+#include <filesystem>
+#include <utility>
+#include <variant>
+
+#include <ros/console.h>
+#include <std_msgs/Bool.h>
+
+namespace scan_image_slam {
+namespace {
+
+constexpr double kStep = 0.002;          // of the simulation in real time [s]
+constexpr double kCommandTimeout = 0.5;  // a robot that is told nothing any more stops [s]
+constexpr std::uint32_t kQueue = 10;
+
+}  // namespace
+
+RobotSimulatorNode::RobotSimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node) {
+  const auto world = private_node.param<std::string>("world", "laboratory");
+  SimulationOptions options;
+  options.seed = static_cast<std::uint64_t>(private_node.param("seed", 1));
+  options.path = private_node.param<std::string>("path", "");
+  options.images = private_node.param("images", true);
+  options.ideal = !private_node.param("noise", true);
+  options.follow_path = private_node.param("follow_path", true);
+  options.start = static_cast<Stamp>(ros::Time::now().toNSec());
+  simulation_ = std::make_unique<RobotSimulation>(LoadScenario(FindWorld(world)), options);
+  camera_info_ = ToMessage(simulation_->camera_lens(), options.start);
+
+  scan_publisher_ = node.advertise<sensor_msgs::LaserScan>("scan", kQueue);
+  odom_publisher_ = node.advertise<nav_msgs::Odometry>("odom", kQueue);
+  truth_publisher_ = node.advertise<geometry_msgs::PoseStamped>("ground_truth", kQueue);
+  finished_publisher_ = node.advertise<std_msgs::Bool>("simulation_finished", 1, true);
+  if (options.images) {
+    camera_info_publisher_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", kQueue);
+    image_publisher_ = image_transport::ImageTransport(node).advertise("image_raw", 2);
+  }
+  static_transforms_.sendTransform(StaticTransforms(*simulation_, options.start).transforms);
+  command_subscriber_ = node.subscribe("cmd_vel", 1, &RobotSimulatorNode::OnCommand, this);
+  timer_ = node.createWallTimer(ros::WallDuration(kStep),
+                                [this](const ros::WallTimerEvent&) { OnTimer(); });
+}
+
+void RobotSimulatorNode::OnTimer() {
+  if (!last_command_.isZero() && (ros::WallTime::now() - last_command_).toSec() > kCommandTimeout) {
+    simulation_->Drive({0.0, 0.0});
+  }
+  const auto now = static_cast<Stamp>(ros::Time::now().toNSec());
+  for (const SensorEvent& event : simulation_->Advance(now)) {
+    std::visit([this](const auto& data) { Publish(data); }, event.data);
+  }
+  if (finished_ || !simulation_->finished()) return;
+  finished_ = true;
+  ROS_INFO("the path is driven");
+  std_msgs::Bool message;
+  message.data = true;
+  finished_publisher_.publish(message);
+}
+
+void RobotSimulatorNode::OnCommand(const geometry_msgs::TwistConstPtr& message) {
+  last_command_ = ros::WallTime::now();
+  simulation_->Drive({message->linear.x, message->angular.z});
+}
+
+void RobotSimulatorNode::Publish(const LaserScan& scan) {
+  scan_publisher_.publish(ToMessage(scan, simulation_->scenario().laser.Period()));
+}
+
+void RobotSimulatorNode::Publish(const CameraFrame& frame) {
+  const sensor_msgs::Image image = ToMessage(frame);
+  camera_info_.header.stamp = image.header.stamp;
+  camera_info_publisher_.publish(camera_info_);
+  image_publisher_.publish(image);
+}
+
+void RobotSimulatorNode::Publish(const OdometryReading& reading) {
+  odom_publisher_.publish(ToMessage(reading));
+  transforms_.sendTransform(ToTransform(reading));
+}
+
+void RobotSimulatorNode::Publish(const GroundTruth& truth) {
+  truth_publisher_.publish(ToMessage(truth));
+}
+
+}  // namespace scan_image_slam
