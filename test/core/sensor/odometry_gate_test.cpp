@@ -1,0 +1,143 @@
+#include "scan_image_slam/core/sensor/odometry_gate.h"
+
+#include <limits>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+namespace scan_image_slam {
+namespace {
+
+constexpr double kMaxWait = 0.02;
+constexpr Stamp kMs = 1000000;
+// Stamps and arrivals are told by different clocks.
+constexpr Stamp kScan = 5000 * kMs;
+constexpr Stamp kNow = 9000 * kMs;
+
+void AddReading(OdometryBuffer* odometry, Stamp stamp) { odometry->Add(stamp, {}); }
+
+class OdometryGateTest : public ::testing::Test {
+ protected:
+  OdometryGate<int> gate_{kMaxWait, 3};
+  OdometryBuffer odometry_{OdometryOptions()};
+
+  std::optional<int> PopAt(Stamp now) { return gate_.Pop(now, odometry_); }
+
+  /// Scan 1 has waited for encoders that did not come.
+  void LetOneWaitInVain() {
+    gate_.Push(1, kScan, kNow);
+    EXPECT_EQ(PopAt(kNow + 20 * kMs), 1);
+  }
+};
+
+TEST_F(OdometryGateTest, IsEmptyAtFirst) {
+  EXPECT_FALSE(PopAt(std::numeric_limits<Stamp>::max()));
+  EXPECT_EQ(gate_.size(), 0U);
+}
+
+TEST_F(OdometryGateTest, AScanThatTheEncodersHaveReachedGoesAtOnce) {
+  AddReading(&odometry_, kScan);
+  gate_.Push(1, kScan, kNow);
+  EXPECT_EQ(PopAt(kNow), 1);
+  EXPECT_EQ(gate_.size(), 0U);
+}
+
+TEST_F(OdometryGateTest, AScanWaitsForTheEncodersToReachIt) {
+  AddReading(&odometry_, kScan - 1);
+  gate_.Push(1, kScan, kNow);
+  EXPECT_FALSE(PopAt(kNow + 19 * kMs));
+  EXPECT_EQ(gate_.size(), 1U);
+  AddReading(&odometry_, kScan + 1);
+  EXPECT_EQ(PopAt(kNow + 19 * kMs), 1);
+}
+
+TEST_F(OdometryGateTest, AScanDoesNotWaitForLong) {
+  AddReading(&odometry_, kScan - kMs);
+  gate_.Push(1, kScan, kNow);
+  EXPECT_FALSE(PopAt(kNow + 20 * kMs - 1));
+  EXPECT_EQ(PopAt(kNow + 20 * kMs), 1);
+}
+
+TEST_F(OdometryGateTest, WithoutEncodersOnlyTheFirstScanWaits) {
+  gate_.Push(1, kScan, kNow);
+  EXPECT_FALSE(PopAt(kNow + 19 * kMs));
+  EXPECT_EQ(PopAt(kNow + 20 * kMs), 1);
+  gate_.Push(2, kScan + 25 * kMs, kNow + 25 * kMs);
+  EXPECT_EQ(PopAt(kNow + 25 * kMs), 2);
+}
+
+TEST_F(OdometryGateTest, SilentEncodersAreNotWaitedForTwice) {
+  AddReading(&odometry_, kScan - 100 * kMs);
+  LetOneWaitInVain();
+  for (int scan = 2; scan < 5; ++scan) {
+    gate_.Push(scan, kScan + scan * kMs, kNow + 30 * kMs);
+    EXPECT_EQ(PopAt(kNow + 30 * kMs), scan);
+  }
+}
+
+TEST_F(OdometryGateTest, EncodersThatSpeakAgainAreWaitedForAgain) {
+  AddReading(&odometry_, kScan - 100 * kMs);
+  LetOneWaitInVain();
+  AddReading(&odometry_, kScan - 50 * kMs);
+  gate_.Push(2, kScan + 25 * kMs, kNow + 25 * kMs);
+  EXPECT_FALSE(PopAt(kNow + 44 * kMs));
+  EXPECT_EQ(PopAt(kNow + 45 * kMs), 2);
+}
+
+TEST_F(OdometryGateTest, EncodersThatHaveReachedAScanAreWaitedForAgain) {
+  LetOneWaitInVain();
+  AddReading(&odometry_, kScan + 25 * kMs);
+  gate_.Push(2, kScan + 25 * kMs, kNow + 25 * kMs);
+  EXPECT_EQ(PopAt(kNow + 25 * kMs), 2);
+  gate_.Push(3, kScan + 50 * kMs, kNow + 50 * kMs);
+  EXPECT_FALSE(PopAt(kNow + 50 * kMs));
+}
+
+TEST_F(OdometryGateTest, ScansLeaveInTheOrderInWhichTheyCame) {
+  AddReading(&odometry_, kScan + 5 * kMs);
+  gate_.Push(1, kScan + 10 * kMs, kNow);
+  gate_.Push(2, kScan, kNow);  // reached, but not its turn
+  EXPECT_FALSE(PopAt(kNow));
+  AddReading(&odometry_, kScan + 10 * kMs);
+  EXPECT_EQ(PopAt(kNow), 1);
+  EXPECT_EQ(PopAt(kNow), 2);
+}
+
+TEST_F(OdometryGateTest, TooManyScansPushOutTheOldest) {
+  for (int scan = 1; scan <= 5; ++scan) gate_.Push(scan, kScan, kNow);
+  EXPECT_EQ(gate_.size(), 3U);
+  EXPECT_EQ(gate_.dropped(), 2);
+  AddReading(&odometry_, kScan);
+  for (int scan = 3; scan <= 5; ++scan) EXPECT_EQ(PopAt(kNow), scan);
+}
+
+TEST_F(OdometryGateTest, ScansThatAreTakenAreNotDropped) {
+  AddReading(&odometry_, kScan);
+  for (int scan = 1; scan <= 5; ++scan) {
+    gate_.Push(scan, kScan, kNow);
+    EXPECT_EQ(PopAt(kNow), scan);
+  }
+  EXPECT_EQ(gate_.dropped(), 0);
+}
+
+TEST_F(OdometryGateTest, ClearForgetsTheScansAndTheSilence) {
+  LetOneWaitInVain();
+  gate_.Push(2, kScan, kNow);
+  gate_.Clear();
+  EXPECT_EQ(gate_.size(), 0U);
+  gate_.Push(3, kScan, kNow);
+  EXPECT_FALSE(PopAt(kNow));
+}
+
+TEST(OdometryGate, HandsOverItemsThatCannotBeCopied) {
+  OdometryGate<std::unique_ptr<int>> gate(kMaxWait, 3);
+  OdometryBuffer odometry{OdometryOptions()};
+  AddReading(&odometry, kScan);
+  gate.Push(std::make_unique<int>(7), kScan, kNow);
+  const auto item = gate.Pop(kNow, odometry);
+  ASSERT_TRUE(item && *item);
+  EXPECT_EQ(**item, 7);
+}
+
+}  // namespace
+}  // namespace scan_image_slam
