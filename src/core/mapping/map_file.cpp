@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
@@ -66,6 +67,7 @@ std::string WriteMap(const MapImage& map, const std::string& stem) {
                                "\n255\n" + pixels);
   std::ostringstream yaml;
   yaml.imbue(std::locale::classic());
+  yaml << std::setprecision(10);
   const std::string name = stem.substr(stem.find_last_of('/') + 1);
   yaml << "image: " << name << ".pgm\nresolution: " << map.resolution << "\norigin: ["
        << map.origin_x << ", " << map.origin_y << ", 0.0]\nnegate: 0\noccupied_thresh: 0.65\n"
