@@ -101,6 +101,8 @@ cv::Mat DrawMap(const MapImage& map, const std::vector<DrawnPath>& paths, int la
         cells(cv::Rect(left, whole.height - below - map.height, map.width, map.height)));
   }
 
+  if (cells.empty()) return cells;
+
   const Canvas canvas(whole, largest_side);
   cv::Mat picture;
   cv::resize(cells, picture, canvas.size(), 0, 0, cv::INTER_NEAREST);
