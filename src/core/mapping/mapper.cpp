@@ -1,5 +1,7 @@
 #include "scan_image_slam/core/mapping/mapper.h"
 
+#include "scan_image_slam/core/geometry/covariance.h"
+
 #include <cmath>
 #include <stdexcept>
 
@@ -49,9 +51,9 @@ Mapper::Mapper(const MapperOptions& options) : options_(options), grid_(options.
 }
 
 void Mapper::BeginChain(const MatchedMotion& match) {
-  if (start_stamp_ && match.start_stamp < *start_stamp_) Reset();
+  if (start_stamp_ && match.start_stamp < last_.stamp) Reset();
   Pose2 map_from_base;
-  if (!start_stamp_) {
+  if (!has_pose_) {
     if (match.odom_from_base) map_from_base = *match.odom_from_base;
   } else if (last_.map_from_odom && match.odom_from_base) {
     map_from_base = *last_.map_from_odom * *match.odom_from_base;
@@ -60,17 +62,21 @@ void Mapper::BeginChain(const MatchedMotion& match) {
   }
   start_stamp_ = match.start_stamp;
   map_from_start_ = map_from_base * match.start_from_base().Inverse();
+  start_covariance_ =
+      TransportCovariance(last_.covariance, last_.map_from_base.Inverse() * map_from_start_);
 }
 
 MapPose Mapper::AddMatch(const MatchedMotion& match) {
   if (!start_stamp_ || match.start_stamp != *start_stamp_) BeginChain(match);
   last_.stamp = match.stamp;
   last_.map_from_base = map_from_start_ * match.start_from_base();
-  last_.covariance = match.covariance;
+  last_.covariance =
+      TransportCovariance(start_covariance_, match.start_from_base()) + match.covariance;
   last_.map_from_odom.reset();
   if (match.odom_from_base) {
     last_.map_from_odom = last_.map_from_base * match.odom_from_base->Inverse();
   }
+  has_pose_ = true;
   return last_;
 }
 
@@ -92,8 +98,11 @@ void Mapper::AddModel(const FusedModel& model, const MatchedMotion& match) {
 }
 
 void Mapper::SetPose(const Pose2& map_from_base) {
-  map_from_start_ = map_from_base * last_.map_from_base.Inverse() * map_from_start_;
+  const Pose2 new_from_old = map_from_base * last_.map_from_base.Inverse();
+  map_from_start_ = new_from_old * map_from_start_;
+  if (last_.map_from_odom) last_.map_from_odom = new_from_old * *last_.map_from_odom;
   last_.map_from_base = map_from_base;
+  has_pose_ = true;
 }
 
 }  // namespace scan_image_slam

@@ -33,12 +33,13 @@ class Mapper {
 
   /// The pose after a match. The first pose is that of the encoders, so that the map's frame begins
   /// as theirs. A chain of matches that begins anew goes on from the last known pose, carried on by
-  /// the encoders; if it begins earlier than the last one, time has gone back and the map with it.
+  /// the encoders; if it begins before the last match, time has gone back and the map with it.
   MapPose AddMatch(const MatchedMotion& match);
   /// Draws the scan of a match into the map, if the robot has moved or some time has passed.
   void AddModel(const FusedModel& model, const MatchedMotion& match);
 
-  /// Sets where the robot is now in the map, e.g. because the user has said so.
+  /// Sets where the robot is now in the map, e.g. because the user has said so; before the first
+  /// match, where the first pose will be.
   void SetPose(const Pose2& map_from_base);
 
   const OccupancyGrid& grid() const { return grid_; }
@@ -56,7 +57,9 @@ class Mapper {
 
   std::optional<Stamp> start_stamp_;  ///< of the chain of matches that poses come from
   Pose2 map_from_start_;
+  Eigen::Matrix3d start_covariance_ = Eigen::Matrix3d::Zero();  ///< of that start
   MapPose last_;
+  bool has_pose_ = false;  ///< `last_` holds a pose that a chain can go on from
   std::optional<Stamp> drawn_stamp_;
   Pose2 map_from_drawn_;
 };
