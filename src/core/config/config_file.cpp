@@ -1,7 +1,8 @@
 #include "scan_image_slam/core/config/config_file.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <ios>
+#include <set>
 #include <sstream>
 
 #include <yaml-cpp/yaml.h>
@@ -13,10 +14,21 @@ std::string At(const std::string& path, const YAML::Mark& mark) {
   return path + ":" + std::to_string(mark.line + 1) + ": ";
 }
 
+/// The name of an entry. Throws ParameterError if it is none, or one of `names` already.
+std::string NameOf(const YAML::Node& key, const std::string& path, std::set<std::string>* names) {
+  if (!key.IsScalar()) throw ParameterError(At(path, key.Mark()) + "a name is expected");
+  const std::string name = key.Scalar();
+  if (!names->insert(name).second) {
+    throw ParameterError(At(path, key.Mark()) + name + ": is there twice");
+  }
+  return name;
+}
+
 void Flatten(const YAML::Node& node, const std::string& prefix, const std::string& path,
              std::map<std::string, ParameterValue>* values) {
+  std::set<std::string> names;
   for (const auto& item : node) {
-    const std::string name = prefix + item.first.as<std::string>();
+    const std::string name = prefix + NameOf(item.first, path, &names);
     if (item.second.IsMap()) {
       Flatten(item.second, name + "/", path, values);
     } else if (item.second.IsScalar()) {
@@ -84,13 +96,16 @@ ConfigSections ReadConfigFile(const std::string& path) {
     root = YAML::LoadFile(path);
   } catch (const YAML::BadFile&) {
     throw ParameterError("can't read the configuration " + path);
+  } catch (const std::ios_base::failure&) {  // a folder
+    throw ParameterError("can't read the configuration " + path);
   } catch (const YAML::ParserException& error) {
     throw ParameterError(At(path, error.mark) + error.msg);
   }
   if (root.IsNull()) return sections;
   if (!root.IsMap()) throw ParameterError(path + ": sections named after the nodes are expected");
+  std::set<std::string> names;
   for (const auto& section : root) {
-    const std::string node = section.first.as<std::string>();
+    const std::string node = NameOf(section.first, path, &names);
     if (section.second.IsNull()) continue;
     if (!section.second.IsMap()) {
       throw ParameterError(At(path, section.first.Mark()) + node + ": a section is expected");
