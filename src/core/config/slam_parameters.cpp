@@ -125,7 +125,7 @@ void AddLocalMapMatcher(LocalMapMatcherOptions* o, ParameterSet* set) {
   set->Add("edge_map/gate", &o->edge_map.gate, "m", kPositive, "farthest edge from its landmark");
   set->Add("edge_map/min_separation", &o->edge_map.min_separation, "m", kPositive,
            "between two edges of one sign that can be told apart");
-  set->Add("edge_map/min_weight", &o->edge_map.min_weight, "-", kFraction,
+  set->Add("edge_map/min_weight", &o->edge_map.min_weight, "-", {0.01, 1.0},
            "share of the region of interest that must be vertical edge");
   set->Add("edge_map/max_range", &o->edge_map.max_range, "m", kPositive,
            "farther edges are not used");
