@@ -1,15 +1,18 @@
 #include "scan_image_slam/ros/mapper_node.h"
 
 #include "scan_image_slam/core/mapping/map_file.h"
+#include "scan_image_slam/ros/graph_markers.h"
 #include "scan_image_slam/ros/node_parameters.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 #include "scan_image_slam/ros/slam_messages.h"
 
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include <ros/console.h>
 #include <std_msgs/String.h>
+#include <visualization_msgs/MarkerArray.h>
 
 namespace scan_image_slam {
 namespace {
@@ -34,7 +37,7 @@ std::filesystem::path PathInFolder(const std::string& folder, const std::string&
 
 MapperNode::Options MapperNode::ReadOptions(const ros::NodeHandle& private_node) {
   Options options;
-  ParameterSet set = MapperParameters(&options.mapper, &options.node);
+  ParameterSet set = MapperParameters(&options.mapper, &options.loop_closer, &options.node);
   ReadParameters(private_node, &set);
   return options;
 }
@@ -42,6 +45,7 @@ MapperNode::Options MapperNode::ReadOptions(const ros::NodeHandle& private_node)
 MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadOptions(private_node)),
       mapper_(options_.mapper),
+      loop_closing_(options_.loop_closer),
       watch_(node, private_node, "mapper"),
       transform_publisher_(node, options_.node),
       map_publisher_(node, options_.node.map_frame),
@@ -51,6 +55,7 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
       pairs_(kQueue) {
   pose_publisher_ = node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
   command_publisher_ = node.advertise<std_msgs::String>("syscommand", 1);
+  graph_publisher_ = node.advertise<visualization_msgs::MarkerArray>("pose_graph", 1, true);
   get_map_service_ = node.advertiseService("dynamic_map", &MapperNode::GetMap, this);
   reset_service_ = node.advertiseService("reset", &MapperNode::Reset, this);
   pause_service_ = node.advertiseService("pause", &MapperNode::Pause, this);
@@ -71,6 +76,7 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
 void MapperNode::OnMatch(const ScanMatchConstPtr& message) {
   watch_.Arrived(match_subscriber_.getTopic());
   try {
+    ApplyLoopClosures();
     const MatchedMotion match = FromMessage(*message);
     if (last_pose_ && match.stamp < last_pose_->stamp) {
       trajectory_.Clear();
@@ -98,7 +104,8 @@ void MapperNode::PublishPose(const MapPose& pose) {
 void MapperNode::OnMatchedModel(const IcpModelConstPtr& model, const ScanMatchConstPtr& match) {
   if (paused_) return;
   try {
-    mapper_.AddModel(FromMessage(*model), FromMessage(*match));
+    const auto keyframe = mapper_.AddModel(FromMessage(*model), FromMessage(*match));
+    if (keyframe) loop_closing_.Add(keyframe);
   } catch (const std::invalid_argument& error) {
     watch_.Refuse(paired_model_subscriber_.getTopic(), error.what());
   }
@@ -119,8 +126,23 @@ void MapperNode::OnInitialPose(const geometry_msgs::PoseWithCovarianceStampedCon
   }
 }
 
+/// Takes in what the back-end has found, and a little of the drawing that follows from it.
+void MapperNode::ApplyLoopClosures() {
+  constexpr int kScansAtOnce = 4;
+  mapper_.Redraw(kScansAtOnce);
+  std::optional<GraphState> found = loop_closing_.Take();
+  if (!found) return;
+  mapper_.Correct(found->poses);
+  trajectory_.Clear();
+  for (const MapPose& pose : mapper_.Trajectory()) trajectory_.Add(pose.stamp, pose.map_from_base);
+  graph_ = std::move(found);
+}
+
 void MapperNode::PublishMap() {
   map_publisher_.Publish(&mapper_.grid(), ros::Time::now());
+  if (graph_ && graph_publisher_.getNumSubscribers() > 0) {
+    graph_publisher_.publish(ToMarkers(*graph_, options_.node.map_frame, ros::Time::now()));
+  }
   trajectory_.Publish();
   encoder_trajectory_.Publish();
 }
@@ -133,6 +155,7 @@ bool MapperNode::GetMap(nav_msgs::GetMap::Request&, nav_msgs::GetMap::Response& 
 bool MapperNode::Reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   mapper_.Reset();
   last_pose_.reset();
+  graph_.reset();
   trajectory_.Clear();
   encoder_trajectory_.Clear();
   std_msgs::String command;

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <fstream>
 #include <iostream>
+#include <limits>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -60,9 +61,8 @@ class StageTimes {
 
   nlohmann::json Report() const {
     nlohmann::json report;
-    const std::array<const char*, 3> names = {"fusion", "match", "map"};
+    const std::array<const char*, 4> names = {"fusion", "match", "map", "loop"};
     for (std::size_t i = 0; i < names.size(); ++i) report[names[i]] = Summary(times_[i]);
-    report["loop"] = Summary({});
     return report;
   }
 
@@ -82,8 +82,8 @@ class StageTimes {
             {"max_ms", times.back()}};
   }
 
-  std::array<double, 3> current_{};
-  std::array<std::vector<double>, 3> times_;
+  std::array<double, 4> current_{};
+  std::array<std::vector<double>, 4> times_;
   double cpu_ms_ = 0.0;
 };
 
@@ -221,7 +221,12 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
   }
   if (run.online.empty()) throw BagError(arguments.bag + ": no scan could be used");
 
-  WriteResults(arguments, run, run.online, pipeline.mapper().grid());
+  pipeline.mapper().Redraw(std::numeric_limits<int>::max());
+  Trajectory trajectory;
+  for (const MapPose& pose : pipeline.mapper().Trajectory()) {
+    trajectory.push_back({pose.stamp, pose.map_from_base});
+  }
+  WriteResults(arguments, run, trajectory, pipeline.mapper().grid());
   const double recorded = Seconds(run.online.back().stamp - run.online.front().stamp);
   nlohmann::json report = {
       {"scans", run.online.size()},
@@ -231,7 +236,7 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
       {"peak_memory_mb", PeakMemoryMegabytes()},
       {"stages", times.Report()},
       {"window_edge_hits", run.window_edge_hits},
-      {"loop_closures", 0},
+      {"loop_closures", pipeline.loop_closer().closures()},
       {"dropped", pipeline.dropped()},
   };
   for (const auto& [name, duration] : run.seconds_in_mode) report["modes"][name + "_s"] = duration;

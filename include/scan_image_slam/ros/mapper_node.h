@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scan_image_slam/core/config/slam_parameters.h"
+#include "scan_image_slam/core/mapping/loop_closing_thread.h"
 #include "scan_image_slam/core/mapping/mapper.h"
 #include "scan_image_slam/ros/input_watch.h"
 #include "scan_image_slam/ros/map_publisher.h"
@@ -26,8 +27,8 @@
 namespace scan_image_slam {
 
 /// Node around Mapper: `scan_match`, `icp_model` and `initialpose` in; `pose`, `trajectory`,
-/// `encoder_trajectory`, `map`, `map_metadata`, `map_updates` and TF out; services `dynamic_map`,
-/// `reset`, `pause` and `save_map`.
+/// `encoder_trajectory`, `pose_graph`, `map`, `map_metadata`, `map_updates` and TF out; services
+/// `dynamic_map`, `reset`, `pause` and `save_map`.
 class MapperNode {
  public:
   /// Throws ParameterError or std::invalid_argument if the configuration is wrong.
@@ -36,6 +37,7 @@ class MapperNode {
  private:
   struct Options {
     MapperOptions mapper;
+    LoopCloserOptions loop_closer;
     MapperNodeOptions node;
   };
   static Options ReadOptions(const ros::NodeHandle& private_node);
@@ -47,10 +49,13 @@ class MapperNode {
   bool Pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool SaveMap(SaveMapRequest& request, SaveMapResponse& response);
   void PublishPose(const MapPose& pose);
+  void ApplyLoopClosures();
   void PublishMap();
 
   Options options_;
   Mapper mapper_;
+  LoopClosingThread loop_closing_;
+  std::optional<GraphState> graph_;
   bool paused_ = false;
   bool has_encoders_ = false;
   std::optional<MapPose> last_pose_;
@@ -61,6 +66,7 @@ class MapperNode {
   PathPublisher encoder_trajectory_;
   ros::Publisher pose_publisher_;
   ros::Publisher command_publisher_;
+  ros::Publisher graph_publisher_;
   ros::ServiceServer get_map_service_;
   ros::ServiceServer reset_service_;
   ros::ServiceServer pause_service_;

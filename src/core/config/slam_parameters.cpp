@@ -120,6 +120,8 @@ void AddLocalMapMatcher(LocalMapMatcherOptions* o, ParameterSet* set) {
            "turned since the last scan that entered the map");
   set->Add("local_map/insert_first", &o->insert_first, "-", {1.0, 1e6},
            "scans at the start that enter the map in any case");
+  set->Add("local_map/forget_distance", &o->forget_distance, "m", kPositive,
+           "what was not seen on the last stretch of this length is left to the mapper");
   set->Add("local_map/min_matched_fraction", &o->min_matched_fraction, "-", kFraction,
            "of the points of a scan, to let it enter the map");
   set->Add("edge_map/gate", &o->edge_map.gate, "m", kPositive, "farthest edge from its landmark");
@@ -164,6 +166,33 @@ void AddFrameMatcher(FrameMatcherOptions* o, ParameterSet* set) {
            "weight of a beam whose edge fills the region of interest, beside 1 for each beam");
   set->Add("frame/range_stddev", &o->range_stddev, "m", kPositive,
            "standard deviation of a range, for the covariance");
+}
+
+void AddLoopClosing(MapperOptions* o, LoopCloserOptions* loop, ParameterSet* set) {
+  set->Add("keyframe_distance", &o->keyframe_distance, "m", kPositive,
+           "driven since the last scan that was kept to recognise places by");
+  set->Add("keyframe_angle", &o->keyframe_angle, "rad", kPositive,
+           "turned since the last scan that was kept");
+  set->Add("loop/enabled", &loop->enabled,
+           "recognise places seen before and correct the map; false: poses stay as matched");
+  set->Add("loop/min_way", &loop->min_loop_way, "m", kPositive,
+           "driven between two visits of a place; not less than bounded_icp keeps in mind "
+           "(local_map/forget_distance)");
+  set->Add("loop/max_distance", &loop->max_distance, "m", kPositive,
+           "between two scans that are compared");
+  set->Add("loop/window_per_way", &loop->window_per_way, "m/m", kNotNegative,
+           "how fast the search window grows with the way since the last visit");
+  set->Add("loop/max_window", &loop->max_window, "m", kPositive, "largest half of that window");
+  set->Add("loop/angle_per_way", &loop->angle_per_way, "rad/m", kNotNegative,
+           "how fast the window grows in angle");
+  set->Add("loop/max_angle", &loop->max_angle, "rad", {0.0, 3.15},
+           "largest half of the window in angle");
+  set->Add("loop/min_agreement", &loop->matcher.min_agreement, "-", kFraction,
+           "of the points that the former visit should have seen, on its walls");
+  set->Add("loop/min_overlap", &loop->matcher.min_overlap, "-", kFraction,
+           "of all points, on walls of the former visit");
+  set->Add("loop/max_rival_score", &loop->matcher.rival_score, "-", kFraction,
+           "another pose that fits so well, relative to the best, makes a place ambiguous");
 }
 
 }  // namespace
@@ -230,7 +259,7 @@ ParameterSet BoundedIcpParameters(BoundedIcpOptions* o, BoundedIcpNodeOptions* n
   return set;
 }
 
-ParameterSet MapperParameters(MapperOptions* o, MapperNodeOptions* node) {
+ParameterSet MapperParameters(MapperOptions* o, LoopCloserOptions* loop, MapperNodeOptions* node) {
   ParameterSet set("mapper");
   set.Add("map_frame", &node->map_frame, "frame of the map");
   set.Add("odom_frame", &node->odom_frame, "frame of the encoders' dead reckoning");
@@ -267,13 +296,14 @@ ParameterSet MapperParameters(MapperOptions* o, MapperNodeOptions* node) {
           "turned since the last scan that was drawn");
   set.Add("map_update_time_thresh", &o->map_update_time_thresh, "s", kNotNegative,
           "passed since the last scan that was drawn");
+  AddLoopClosing(o, loop, &set);
   return set;
 }
 
 std::vector<ParameterSet> SlamOptions::Parameters() {
   return {FusionParameters(&fusion, &fusion_node),
           BoundedIcpParameters(&bounded_icp, &bounded_icp_node),
-          MapperParameters(&mapper, &mapper_node)};
+          MapperParameters(&mapper, &loop_closer, &mapper_node)};
 }
 
 }  // namespace scan_image_slam

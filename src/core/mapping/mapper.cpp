@@ -2,8 +2,11 @@
 
 #include "scan_image_slam/core/geometry/covariance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include <Eigen/Eigenvalues>
 
 namespace scan_image_slam {
 namespace {
@@ -15,7 +18,8 @@ GridScan ToGridScan(const FusedModel& model, const Velocity2& sweep_correction,
   scan.beams.reserve(model.beams.size());
   for (const ModelBeam& beam : model.beams) {
     if (beam.hit() && beam.range <= options.max_range) {
-      scan.beams.push_back({Move(sweep_correction, beam.time_offset) * beam.point, true});
+      const Eigen::Vector2d end = Move(sweep_correction, beam.time_offset) * beam.point;
+      scan.beams.push_back({end.cast<float>(), true});
       continue;
     }
     const bool far_hit = beam.hit();
@@ -27,9 +31,31 @@ GridScan ToGridScan(const FusedModel& model, const Velocity2& sweep_correction,
     const Velocity2 velocity = model.sweep_velocity + sweep_correction;
     const Eigen::Vector2d end =
         scan.origin + options.max_range * Eigen::Vector2d(std::cos(heading), std::sin(heading));
-    scan.beams.push_back({Move(velocity, beam.time_offset) * end, false});
+    const Eigen::Vector2d moved = Move(velocity, beam.time_offset) * end;
+    scan.beams.push_back({moved.cast<float>(), false});
   }
   return scan;
+}
+
+bool IsReliable(MatchStatus status) {
+  return status != MatchStatus::kOnWindowEdge && status != MatchStatus::kTooFewPoints;
+}
+
+/// Of a motion that the matching could not follow: metres and tens of degrees.
+Eigen::Matrix3d UnjoinedCovariance() {
+  constexpr double kDistance = 1.0;  // [m]
+  constexpr double kAngle = 0.3;     // [rad]
+  return Eigen::Vector3d(kDistance * kDistance, kDistance * kDistance, kAngle * kAngle)
+      .asDiagonal();
+}
+
+/// What a covariance has grown by over a motion, as far as it has.
+Eigen::Matrix3d Growth(const Eigen::Matrix3d& before, const Eigen::Matrix3d& after,
+                       const Pose2& motion) {
+  const Eigen::Matrix3d difference = after - TransportCovariance(before, motion);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(difference);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
+         eigen.eigenvectors().transpose();
 }
 
 }  // namespace
@@ -77,11 +103,13 @@ MapPose Mapper::AddMatch(const MatchedMotion& match) {
     last_.map_from_odom = last_.map_from_base * match.odom_from_base->Inverse();
   }
   has_pose_ = true;
+  if (!IsReliable(match.status)) joined_ = false;
+  tracked_.push_back({match.stamp, Attach(last_.map_from_base)});
   return last_;
 }
 
 bool Mapper::WorthDrawing(const MatchedMotion& match, const Pose2& map_from_base) const {
-  if (match.status == MatchStatus::kOnWindowEdge) return false;
+  if (!IsReliable(match.status)) return false;
   if (!drawn_stamp_) return true;
   const Pose2 moved = map_from_drawn_.Inverse() * map_from_base;
   return moved.translation().norm() >= options_.map_update_distance_thresh ||
@@ -89,12 +117,107 @@ bool Mapper::WorthDrawing(const MatchedMotion& match, const Pose2& map_from_base
          Seconds(match.stamp - *drawn_stamp_) >= options_.map_update_time_thresh;
 }
 
-void Mapper::AddModel(const FusedModel& model, const MatchedMotion& match) {
+bool Mapper::WorthKeeping(const MatchedMotion& match) const {
+  if (!IsReliable(match.status)) return false;
+  if (keyframe_poses_.empty() || match.start_stamp != kept_start_stamp_) return true;
+  const Pose2 moved = Attach(map_from_start_ * match.start_from_base()).keyframe_from_base;
+  return moved.translation().norm() >= options_.keyframe_distance ||
+         std::abs(moved.theta) >= options_.keyframe_angle;
+}
+
+std::shared_ptr<const Keyframe> Mapper::Keep(const FusedModel& model, const MatchedMotion& match) {
+  auto keyframe = std::make_shared<Keyframe>(MakeKeyframe(model, match, options_.keyframe));
   const Pose2 map_from_base = map_from_start_ * match.start_from_base();
-  if (!WorthDrawing(match, map_from_base)) return;
-  grid_.Add(ToGridScan(model, match.sweep_correction, options_.grid), map_from_base);
-  drawn_stamp_ = match.stamp;
-  map_from_drawn_ = map_from_base;
+  keyframe->previous_from_base = Attach(map_from_base).keyframe_from_base;
+  keyframe->id = static_cast<int>(keyframe_poses_.size());
+  keyframe->joined = joined_ && match.start_stamp == kept_start_stamp_;
+  way_ += keyframe->previous_from_base.translation().norm();
+  keyframe->way = way_;
+  const double s = options_.keyframe_distance_stddev;
+  const double a = options_.keyframe_angle_stddev;
+  keyframe->covariance = Eigen::Vector3d(s * s, s * s, a * a).asDiagonal();
+  if (keyframe->joined) {
+    keyframe->covariance +=
+        Growth(kept_covariance_, match.covariance, keyframe->previous_from_base);
+  } else {
+    keyframe->covariance = UnjoinedCovariance();
+  }
+  joined_ = true;
+  kept_start_stamp_ = match.start_stamp;
+  kept_covariance_ = match.covariance;
+  keyframe_poses_.push_back(map_from_base);
+  return keyframe;
+}
+
+std::shared_ptr<const Keyframe> Mapper::AddModel(const FusedModel& model,
+                                                 const MatchedMotion& match) {
+  const Pose2 map_from_base = map_from_start_ * match.start_from_base();
+  std::shared_ptr<const Keyframe> keyframe;
+  if (WorthKeeping(match)) keyframe = Keep(model, match);
+  if (WorthDrawing(match, map_from_base)) {
+    drawn_.push_back({ToGridScan(model, match.sweep_correction, options_.grid),
+                      Attach(map_from_base), map_from_base});
+    grid_.Add(drawn_.back().scan, map_from_base);
+    drawn_stamp_ = match.stamp;
+    map_from_drawn_ = map_from_base;
+  }
+  return keyframe;
+}
+
+Mapper::Attached Mapper::Attach(const Pose2& map_from_base) const {
+  if (keyframe_poses_.empty()) return {-1, map_from_base};
+  return {static_cast<int>(keyframe_poses_.size()) - 1,
+          keyframe_poses_.back().Inverse() * map_from_base};
+}
+
+Pose2 Mapper::MapFromBase(const Attached& pose) const {
+  if (pose.keyframe < 0) return pose.keyframe_from_base;
+  return keyframe_poses_[pose.keyframe] * pose.keyframe_from_base;
+}
+
+void Mapper::Correct(const std::vector<Pose2>& keyframe_poses) {
+  if (keyframe_poses.empty() || keyframe_poses.size() > keyframe_poses_.size()) return;
+  const Pose2 moved = keyframe_poses.back() * keyframe_poses_[keyframe_poses.size() - 1].Inverse();
+  std::copy(keyframe_poses.begin(), keyframe_poses.end(), keyframe_poses_.begin());
+  for (std::size_t i = keyframe_poses.size(); i < keyframe_poses_.size(); ++i) {
+    keyframe_poses_[i] = moved * keyframe_poses_[i];
+  }
+  map_from_start_ = moved * map_from_start_;
+  map_from_drawn_ = moved * map_from_drawn_;
+  last_.map_from_base = moved * last_.map_from_base;
+  if (last_.map_from_odom) last_.map_from_odom = moved * *last_.map_from_odom;
+  to_redraw_ = drawn_.size();
+}
+
+bool Mapper::Redraw(int max_scans) {
+  constexpr double kCells = 0.2;
+  constexpr double kAngle = 0.002;  // [rad]
+  while (to_redraw_ > 0 && max_scans > 0) {
+    DrawnScan& drawn = drawn_[--to_redraw_];
+    const Pose2 map_from_base = MapFromBase(drawn.pose);
+    const Pose2 moved = drawn.map_from_base.Inverse() * map_from_base;
+    if (moved.translation().norm() < kCells * options_.grid.resolution &&
+        std::abs(moved.theta) < kAngle) {
+      continue;
+    }
+    grid_.Remove(drawn.scan, drawn.map_from_base);
+    grid_.Add(drawn.scan, map_from_base);
+    drawn.map_from_base = map_from_base;
+    --max_scans;
+  }
+  return to_redraw_ == 0;
+}
+
+std::vector<MapPose> Mapper::Trajectory() const {
+  std::vector<MapPose> poses;
+  poses.reserve(tracked_.size());
+  for (const TrackedPose& tracked : tracked_) {
+    MapPose pose;
+    pose.stamp = tracked.stamp;
+    pose.map_from_base = MapFromBase(tracked.pose);
+    poses.push_back(pose);
+  }
+  return poses;
 }
 
 void Mapper::SetPose(const Pose2& map_from_base) {
@@ -103,6 +226,7 @@ void Mapper::SetPose(const Pose2& map_from_base) {
   if (last_.map_from_odom) last_.map_from_odom = new_from_old * *last_.map_from_odom;
   last_.map_from_base = map_from_base;
   has_pose_ = true;
+  joined_ = false;
 }
 
 }  // namespace scan_image_slam

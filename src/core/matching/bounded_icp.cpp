@@ -10,6 +10,7 @@ namespace {
 
 MatchStatus StatusOf(const MatchOutcome& outcome) {
   if (outcome.on_window_edge) return MatchStatus::kOnWindowEdge;
+  if (outcome.too_few_points) return MatchStatus::kTooFewPoints;
   return outcome.degenerate ? MatchStatus::kDegenerate : MatchStatus::kMatched;
 }
 

@@ -73,7 +73,7 @@ const EdgeLandmark* EdgeMap::Find(const ModelEdge& edge,
 }
 
 void EdgeMap::Insert(const std::vector<ModelEdge>& edges, const Pose2& map_from_base,
-                     const Eigen::Matrix3d& covariance) {
+                     const Eigen::Matrix3d& covariance, double way) {
   const RigidTransform2 transform(map_from_base);
   for (const ModelEdge& edge : edges) {
     const int id = FindId(edge, transform);
@@ -94,6 +94,7 @@ void EdgeMap::Insert(const std::vector<ModelEdge>& edges, const Pose2& map_from_
       landmark.position += cross * (innovation / innovation_variance);
       landmark.covariance -= cross * cross.transpose() / innovation_variance;
       ++landmark.hits;
+      landmark.last_seen = way;
       continue;
     }
     const Eigen::Vector2d place = transform * edge.point();
@@ -111,8 +112,22 @@ void EdgeMap::Insert(const std::vector<ModelEdge>& edges, const Pose2& map_from_
     landmark.covariance = rotation * in_base * rotation.transpose();
     landmark.sign = edge.sign;
     landmark.hits = 1;
+    landmark.last_seen = way;
     (edge.sign > 0 ? positive_ : negative_).Insert(static_cast<int>(landmarks_.size()), place);
     landmarks_.push_back(landmark);
+  }
+}
+
+void EdgeMap::ForgetBefore(double way) {
+  const auto forgotten = std::remove_if(landmarks_.begin(), landmarks_.end(),
+                                        [&](const auto& e) { return e.last_seen < way; });
+  if (forgotten == landmarks_.end()) return;
+  landmarks_.erase(forgotten, landmarks_.end());
+  positive_.Clear();
+  negative_.Clear();
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    NearestField& field = landmarks_[i].sign > 0 ? positive_ : negative_;
+    field.Insert(static_cast<int>(i), landmarks_[i].position);
   }
 }
 

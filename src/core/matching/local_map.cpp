@@ -34,19 +34,21 @@ LocalMap::LocalMap(const LocalMapOptions& options, const RangeNoise& noise)
   options_.Validate();
 }
 
-void LocalMap::Insert(const std::vector<SurfacePoint>& points, const Pose2& map_from_base) {
+void LocalMap::Insert(const std::vector<SurfacePoint>& points, const Pose2& map_from_base,
+                      double way) {
   const RigidTransform2 transform(map_from_base);
   for (const SurfacePoint& point : points) {
     if (!point.has_normal()) continue;
     const Eigen::Vector2d place = transform * point.point;
     const Eigen::Vector2d normal = transform.Rotate(point.normal);
-    if (Merge(point, place, normal)) continue;
+    if (Merge(point, place, normal, way)) continue;
     SurfaceElement element;
     element.position = place.cast<float>();
     element.normal = normal.cast<float>();
     element.information = static_cast<float>(
         1.0 / (kMinVariance + noise_.VarianceAcross(point.range, point.normal.dot(point.ray))));
     element.angle_information = static_cast<float>(1.0 / point.angle_variance);
+    element.last_seen = static_cast<float>(way);
     field_.Insert(static_cast<int>(elements_.size()), place);
     elements_.push_back(element);
   }
@@ -54,7 +56,7 @@ void LocalMap::Insert(const std::vector<SurfacePoint>& points, const Pose2& map_
 
 /// Refines the element that a point belongs to. False if there is none: the point starts one.
 bool LocalMap::Merge(const SurfacePoint& point, const Eigen::Vector2d& place,
-                     const Eigen::Vector2d& normal) {
+                     const Eigen::Vector2d& normal, double way) {
   const int id = field_.Nearest(place);
   if (id < 0) return false;
   SurfaceElement& element = elements_[id];
@@ -77,6 +79,7 @@ bool LocalMap::Merge(const SurfacePoint& point, const Eigen::Vector2d& place,
   element.normal =
       ((1.0 - angle_gain) * element_normal + angle_gain * normal).normalized().cast<float>();
   element.angle_information += static_cast<float>(angle_information);
+  element.last_seen = static_cast<float>(way);
   return true;
 }
 
@@ -88,6 +91,17 @@ double LocalMap::Distance(const Eigen::Vector2d& place, double max_distance) con
   const double across = normal.dot(offset);
   const double along = std::max(0.0, Along(normal, offset) - 0.5 * options_.spacing);
   return std::min(max_distance, std::sqrt(across * across + along * along));
+}
+
+void LocalMap::ForgetBefore(double way) {
+  const auto forgotten = std::remove_if(elements_.begin(), elements_.end(),
+                                        [&](const auto& e) { return e.last_seen < way; });
+  if (forgotten == elements_.end()) return;
+  elements_.erase(forgotten, elements_.end());
+  field_.Clear();
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    field_.Insert(static_cast<int>(i), elements_[i].position.cast<double>());
+  }
 }
 
 void LocalMap::Clear() {

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace scan_image_slam {
 namespace {
+
+/// After so many scans that show nothing known, the surroundings are taken for new ones.
+constexpr int kMaxUnmatched = 20;
 
 /// Points that represent a scan in the search: evenly spaced along the walls, and ordered so that
 /// any first few of them represent the whole, because then bad candidates are given up early.
@@ -22,16 +26,6 @@ std::vector<Eigen::Vector2d> SearchPoints(const std::vector<SurfacePoint>& point
     for (std::size_t i = first; i < spaced.size(); i += kStride) ordered.push_back(spaced[i]);
   }
   return ordered;
-}
-
-/// Moves each point by what the base moved differently from what was thought, since its beam fired.
-void CorrectSweep(const Velocity2& difference, std::vector<SurfacePoint>* points) {
-  for (SurfacePoint& p : *points) {
-    const RigidTransform2 correction(Move(difference, p.time_offset));
-    p.point = correction * p.point;
-    p.ray = correction.Rotate(p.ray);
-    p.normal = correction.Rotate(p.normal);
-  }
 }
 
 /// True if a wrong velocity displaces the sweep by more than a fraction of the laser's precision.
@@ -87,7 +81,7 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
   MatchOutcome outcome;
   if (!prediction.from_encoders) {
     outcome.sweep_correction = VelocityOf(prediction.motion, prediction.dt);
-    CorrectSweep(outcome.sweep_correction, &points);
+    points = CorrectSweep(std::move(points), outcome.sweep_correction);
   }
   const Pose2 map_from_predicted = map_from_last * prediction.motion;
   const SearchResult found = Search(points, map_from_predicted, prediction);
@@ -104,7 +98,7 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
   const Velocity2 error =
       VelocityOf(map_from_predicted.Inverse() * refined.map_from_base, prediction.dt);
   if (MattersForSweep(error, points)) {
-    CorrectSweep(error, &points);
+    points = CorrectSweep(std::move(points), error);
     outcome.sweep_correction = outcome.sweep_correction + error;
     refined = refine_from(refined.map_from_base);
   }
@@ -121,12 +115,16 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
   outcome.matched = refined.matched;
   outcome.degenerate = refined.degenerate;
   outcome.degenerate_direction = refined.degenerate_direction;
-  const bool trustworthy =
-      !outcome.on_window_edge && refined.matched >= options_.min_matched_fraction * outcome.points;
-  if (trustworthy) {
+  way_ += (prediction.motion * FromArcCoordinates(outcome.deviation)).translation().norm();
+  ForgetOldSurroundings();
+  outcome.too_few_points = refined.matched < options_.min_matched_fraction * outcome.points;
+  unmatched_ = outcome.too_few_points ? unmatched_ + 1 : 0;
+  const bool unknown_surroundings = local_map_.elements().empty() || unmatched_ > kMaxUnmatched;
+  if (!outcome.on_window_edge && (!outcome.too_few_points || unknown_surroundings)) {
+    unmatched_ = 0;
     const Pose2 map_from_base = map_from_predicted * FromArcCoordinates(outcome.deviation);
     InsertIfMoved(points, map_from_base);
-    edge_map_.Insert(edges, map_from_base, outcome.covariance);
+    edge_map_.Insert(edges, map_from_base, outcome.covariance, way_);
   }
   return outcome;
 }
@@ -138,9 +136,19 @@ void LocalMapMatcher::InsertIfMoved(const std::vector<SurfacePoint>& points,
       std::abs(moved.theta) < options_.insert_angle) {
     return;
   }
-  local_map_.Insert(points, map_from_base);
+  local_map_.Insert(points, map_from_base, way_);
   map_from_inserted_ = map_from_base;
   ++inserted_;
+}
+
+/// What lies a long way back is left to the mapper, which knows how far the pose may have drifted
+/// since.
+void LocalMapMatcher::ForgetOldSurroundings() {
+  constexpr double kStep = 0.1;  // of the distance, between two clean-ups
+  if (way_ - way_at_forgetting_ < kStep * options_.forget_distance) return;
+  way_at_forgetting_ = way_;
+  local_map_.ForgetBefore(way_ - options_.forget_distance);
+  edge_map_.ForgetBefore(way_ - options_.forget_distance);
 }
 
 }  // namespace scan_image_slam

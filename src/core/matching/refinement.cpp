@@ -166,11 +166,11 @@ Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
     const Degeneracy degeneracy = RemoveWeakDirection(options.degenerate_ratio, &term.equations);
     NormalEquations equations = term.equations;
     result.matched_edges = AddEdges(edges, edge_map, result.map_from_base, options, &equations);
+    result.information = equations.information;
     AddPrior(prior, prior_information, result.map_from_base, &equations);
     const Eigen::Vector3d step = -equations.information.ldlt().solve(equations.gradient);
     result.map_from_base = result.map_from_base * Pose2{step.x(), step.y(), step.z()};
     result.covariance = equations.information.inverse();
-    result.scan_information = term.equations.information;
     result.matched = term.matched;
     result.rms = term.weights > 0.0 ? std::sqrt(term.weighted_squares / term.weights) : 0.0;
     result.degenerate = degeneracy.found;

@@ -106,4 +106,15 @@ std::vector<SurfacePoint> EstimateSurface(const FusedModel& model, const Surface
   return points;
 }
 
+std::vector<SurfacePoint> CorrectSweep(std::vector<SurfacePoint> points,
+                                       const Velocity2& difference) {
+  for (SurfacePoint& p : points) {
+    const RigidTransform2 correction(Move(difference, p.time_offset));
+    p.point = correction * p.point;
+    p.ray = correction.Rotate(p.ray);
+    p.normal = correction.Rotate(p.normal);
+  }
+  return points;
+}
+
 }  // namespace scan_image_slam

@@ -17,6 +17,7 @@ SlamPipeline::SlamPipeline(const SlamOptions& options, OnResult on_result, RunSt
       fusion_(options.fusion),
       bounded_icp_(options.bounded_icp),
       mapper_(options.mapper),
+      loop_closer_(options.loop_closer),
       gate_(options.fusion_node.odometry.max_wait, kMaxWaitingScans) {}
 
 void SlamPipeline::AddOdometry(Stamp stamp, const Pose2& odom_from_base, Stamp now) {
@@ -48,12 +49,18 @@ void SlamPipeline::ReleaseScans(Stamp now) {
 
 void SlamPipeline::Process(const LaserScan& scan) {
   PipelineResult result;
+  std::shared_ptr<const Keyframe> keyframe;
   run_(Stage::kFusion, [&] { result.model = fusion_.Fuse(scan); });
   run_(Stage::kMatch, [&] { result.match = bounded_icp_.Match(result.model); });
   run_(Stage::kMap, [&] {
     result.pose = mapper_.AddMatch(result.match);
-    mapper_.AddModel(result.model, result.match);
+    keyframe = mapper_.AddModel(result.model, result.match);
   });
+  if (keyframe) {
+    run_(Stage::kLoop, [&] {
+      if (loop_closer_.Add(keyframe)) mapper_.Correct(loop_closer_.poses());
+    });
+  }
   on_result_(result);
 }
 

@@ -21,7 +21,7 @@ inline OccupancyGridOptions MetreCells() {
 inline GridScan OneBeam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bool hit = true) {
   GridScan scan;
   scan.origin = from;
-  scan.beams.push_back({to, hit});
+  scan.beams.push_back({to.cast<float>(), hit});
   return scan;
 }
 

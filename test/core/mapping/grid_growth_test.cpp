@@ -27,8 +27,8 @@ std::vector<PlacedScan> RandomScans(int count) {
                             random.Uniform(-M_PI, M_PI)};
     placed.scan.origin = {random.Uniform(-0.5, 0.5), random.Uniform(-0.5, 0.5)};
     for (int beam = 0; beam < 40; ++beam) {
-      placed.scan.beams.push_back({{random.Uniform(-30.0, 30.0), random.Uniform(-30.0, 30.0)},
-                                   random.Uniform(0.0, 1.0) < 0.7});
+      const Eigen::Vector2d end(random.Uniform(-30.0, 30.0), random.Uniform(-30.0, 30.0));
+      placed.scan.beams.push_back({end.cast<float>(), random.Uniform(0.0, 1.0) < 0.7});
     }
     scans.push_back(placed);
   }

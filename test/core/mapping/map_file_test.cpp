@@ -140,9 +140,9 @@ OccupancyGrid RandomGrid(double resolution) {
   for (int i = 0; i < 20; ++i) {
     GridScan scan;
     for (int beam = 0; beam < 60; ++beam) {
-      scan.beams.push_back({{resolution * random.Uniform(-40.0, 40.0),  //
-                             resolution * random.Uniform(-20.0, 20.0)},
-                            random.Uniform(0.0, 1.0) < 0.8});
+      const Eigen::Vector2d end(resolution * random.Uniform(-40.0, 40.0),
+                                resolution * random.Uniform(-20.0, 20.0));
+      scan.beams.push_back({end.cast<float>(), random.Uniform(0.0, 1.0) < 0.8});
     }
     grid.Add(scan, {-1234.5, 567.8, random.Uniform(-M_PI, M_PI)});
   }

@@ -90,7 +90,7 @@ TEST(OccupancyGrid, ACellCountsOncePerScan) {
   OccupancyGrid grid(MetreCells());
   GridScan scan;
   scan.origin = {0.5, 0.5};
-  for (int i = 0; i < 10; ++i) scan.beams.push_back({{3.5, 0.1 + 0.08 * i}, true});
+  for (int i = 0; i < 10; ++i) scan.beams.push_back({{3.5F, 0.1F + 0.08F * static_cast<float>(i)}, true});
   grid.Add(scan, kOrigin);
   for (int x = 0; x < 3; ++x) EXPECT_EQ(grid.Occupancy(x, 0), 40) << x;
   EXPECT_EQ(grid.Occupancy(3, 0), 75);
@@ -100,7 +100,7 @@ TEST(OccupancyGrid, ACellWithAHitIsNotCrossedByTheSameScan) {
   // A post, and beams that pass it by on either side, drawn before and after.
   GridScan scan = OneBeam({0.5, 0.5}, {3.5, 0.5});
   scan.beams.insert(scan.beams.begin(), {{6.5, 0.6}, true});
-  scan.beams.push_back({{6.5, 0.4}, true});
+  scan.beams.push_back({{6.5F, 0.4F}, true});
   OccupancyGrid grid(MetreCells());
   grid.Add(scan, kOrigin);
   EXPECT_EQ(grid.Occupancy(3, 0), 75);

@@ -34,7 +34,7 @@ RefinementProblem WallProblem(int half_length_dm) {
 TEST(RefineTerms, InformationOfAWallByHand) {
   // Points at y = -0.2 ... 0.2: n is -x, so forward counts 5 times and the turn by the sum of y^2.
   const Refinement result = WallProblem(2).From(Pose2());
-  const Eigen::Matrix3d& information = result.scan_information;
+  const Eigen::Matrix3d& information = result.information;
   EXPECT_EQ(result.matched, 5);
   EXPECT_NEAR(information(0, 0), 5.0 / kVariance, 1e-3);
   EXPECT_NEAR(information(2, 2), 0.1 / kVariance, 1e-3);
@@ -47,7 +47,7 @@ TEST(RefineTerms, TurnAndForwardGoTogetherOffTheMiddle) {
   // mixed term is -0.3.
   RefinementProblem problem = WallProblem(2);
   problem.points.erase(problem.points.begin(), problem.points.begin() + 2);
-  const Eigen::Matrix3d information = problem.From(Pose2()).scan_information;
+  const Eigen::Matrix3d information = problem.From(Pose2()).information;
   EXPECT_NEAR(information(0, 2), -0.3 / kVariance, 1e-3);
   EXPECT_NEAR(information(2, 0), -0.3 / kVariance, 1e-3);
 }
@@ -55,7 +55,7 @@ TEST(RefineTerms, TurnAndForwardGoTogetherOffTheMiddle) {
 TEST(RefineTerms, CorrelationDividesTheInformation) {
   RefinementProblem problem = WallProblem(2);
   problem.options.correlation = 10.0;
-  EXPECT_NEAR(problem.From(Pose2()).scan_information(0, 0), 0.5 / kVariance, 1e-3);
+  EXPECT_NEAR(problem.From(Pose2()).information(0, 0), 0.5 / kVariance, 1e-3);
 }
 
 TEST(RefineTerms, CovarianceJoinsScanAndPrior) {

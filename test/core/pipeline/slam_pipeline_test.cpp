@@ -90,7 +90,7 @@ TEST(SlamPipeline, TheOrderOfTheStagesIsThatOfTheNodes) {
   TestRandom random(1);
   pipeline.AddScan(TestDrive().ScanAt(0.0, &random), kRunStart);
   pipeline.Finish();
-  EXPECT_EQ(stages, (std::vector<Stage>{Stage::kFusion, Stage::kMatch, Stage::kMap}));
+  EXPECT_EQ(stages, (std::vector<Stage>{Stage::kFusion, Stage::kMatch, Stage::kMap, Stage::kLoop}));
 }
 
 bool SameBytes(const Pose2& a, const Pose2& b) { return std::memcmp(&a, &b, sizeof a) == 0; }

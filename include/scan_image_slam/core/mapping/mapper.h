@@ -1,9 +1,11 @@
 #pragma once
 
 #include "scan_image_slam/core/fusion/fused_model.h"
+#include "scan_image_slam/core/mapping/keyframe.h"
 #include "scan_image_slam/core/mapping/occupancy_grid.h"
 #include "scan_image_slam/core/matching/matched_motion.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -12,8 +14,13 @@ namespace scan_image_slam {
 struct MapperOptions {
   OccupancyGridOptions grid;
   double map_update_distance_thresh = 0.1;  ///< driven since the last scan in the map [m]
-  double map_update_angle_thresh = 0.1;     ///< turned since then [rad]
+  double map_update_angle_thresh = 0.1;     ///< turned since the last scan in the map [rad]
   double map_update_time_thresh = 1.0;      ///< passed since then [s]
+  KeyframeOptions keyframe;
+  double keyframe_distance = 0.4;          ///< driven since the last keyframe [m]
+  double keyframe_angle = 0.4;             ///< turned since then [rad]
+  double keyframe_distance_stddev = 0.01;  ///< of the motion between two keyframes, at best [m]
+  double keyframe_angle_stddev = 0.003;    ///< [rad]
   /// Throws std::invalid_argument, naming the field, if a value is out of range.
   void Validate() const;
 };
@@ -26,7 +33,8 @@ struct MapPose {
   std::optional<Pose2> map_from_odom;                    ///< if there are encoders
 };
 
-/// The third stage of the system: chains the matches into the pose and draws the map.
+/// The third stage of the system: chains the matches into the pose, chooses keyframes and draws the
+/// map. Places that are recognised (LoopCloser) come in by Correct.
 class Mapper {
  public:
   explicit Mapper(const MapperOptions& options);
@@ -35,8 +43,13 @@ class Mapper {
   /// as theirs. A chain of matches that begins anew goes on from the last known pose, carried on by
   /// the encoders; if it begins before the last match, time has gone back and the map with it.
   MapPose AddMatch(const MatchedMotion& match);
+
   /// Draws the scan of a match into the map, if the robot has moved or some time has passed.
-  void AddModel(const FusedModel& model, const MatchedMotion& match);
+  /// Returns the scan as a keyframe if it became one, else null.
+  std::shared_ptr<const Keyframe> AddModel(const FusedModel& model, const MatchedMotion& match);
+
+  /// Moves the first keyframes to these poses, map_from_base, and what came later with the last.
+  void Correct(const std::vector<Pose2>& keyframe_poses);
 
   /// Sets where the robot is now in the map, e.g. because the user has said so; before the first
   /// match, where the first pose will be.
@@ -45,16 +58,40 @@ class Mapper {
   const OccupancyGrid& grid() const { return grid_; }
   OccupancyGrid& grid() { return grid_; }
 
+  /// Draws scans anew where a correction has moved them, the latest first and at most so many.
+  /// Returns true if none is left.
+  bool Redraw(int max_scans);
+
+  /// Poses of all scans so far, as known now.
+  std::vector<MapPose> Trajectory() const;
+
   /// Starts over with an empty map.
   void Reset() { *this = Mapper(options_); }
 
  private:
+  /// A pose that hangs on a keyframe; those before the first hang on the map's frame (-1).
+  struct Attached {
+    int keyframe = -1;
+    Pose2 keyframe_from_base;
+  };
+  struct TrackedPose {
+    Stamp stamp = 0;
+    Attached pose;
+  };
+  struct DrawnScan {
+    GridScan scan;
+    Attached pose;
+    Pose2 map_from_base;  ///< where it was drawn
+  };
+  void BeginChain(const MatchedMotion& match);
   bool WorthDrawing(const MatchedMotion& match, const Pose2& map_from_base) const;
+  bool WorthKeeping(const MatchedMotion& match) const;
+  std::shared_ptr<const Keyframe> Keep(const FusedModel& model, const MatchedMotion& match);
+  Attached Attach(const Pose2& map_from_base) const;
+  Pose2 MapFromBase(const Attached& pose) const;
 
   MapperOptions options_;
   OccupancyGrid grid_;
-  void BeginChain(const MatchedMotion& match);
-
   std::optional<Stamp> start_stamp_;  ///< of the chain of matches that poses come from
   Pose2 map_from_start_;
   Eigen::Matrix3d start_covariance_ = Eigen::Matrix3d::Zero();  ///< of that start
@@ -62,6 +99,15 @@ class Mapper {
   bool has_pose_ = false;  ///< `last_` holds a pose that a chain can go on from
   std::optional<Stamp> drawn_stamp_;
   Pose2 map_from_drawn_;
+
+  std::vector<Pose2> keyframe_poses_;
+  bool joined_ = true;          ///< the matching has followed all motion since the last keyframe
+  double way_ = 0.0;            ///< driven so far [m]
+  Stamp kept_start_stamp_ = 0;  ///< chain of the last keyframe
+  Eigen::Matrix3d kept_covariance_ = Eigen::Matrix3d::Zero();
+  std::vector<TrackedPose> tracked_;
+  std::vector<DrawnScan> drawn_;
+  std::size_t to_redraw_ = 0;  ///< the scans before this one may lie where they were
 };
 
 }  // namespace scan_image_slam

@@ -29,7 +29,7 @@ struct OccupancyGridOptions {
 
 /// One beam to be drawn into the grid.
 struct GridBeam {
-  Eigen::Vector2d end{0, 0};  ///< in the base frame [m]
+  Eigen::Vector2f end{0, 0};  ///< in the base frame [m]
   bool hit = true;            ///< an obstacle at the end; otherwise only free space before it
 };
 

@@ -25,6 +25,7 @@ struct SurfaceElement {
   Eigen::Vector2f normal{0, 0};    ///< unit vector towards the free side
   float information = 0.0f;        ///< about the position along the normal [1/m^2]
   float angle_information = 0.0f;  ///< about the direction of the normal [1/rad^2]
+  float last_seen = 0.0f;          ///< way driven when a scan hit it last [m]
 };
 
 /// What the scans have seen so far, as surface elements: the reference of the matching that does
@@ -34,8 +35,13 @@ class LocalMap {
  public:
   LocalMap(const LocalMapOptions& options, const RangeNoise& noise);
 
-  /// Adds a scan taken at `map_from_base`; points without a normal are left out.
-  void Insert(const std::vector<SurfacePoint>& points, const Pose2& map_from_base);
+  /// Adds a scan taken at `map_from_base`, after `way` metres; points without a normal are left
+  /// out.
+  void Insert(const std::vector<SurfacePoint>& points, const Pose2& map_from_base,
+              double way = 0.0);
+
+  /// Drops what no scan has hit since `way`.
+  void ForgetBefore(double way);
 
   /// The element nearest to a place in the map [m], or null if none is within reach.
   const SurfaceElement* Nearest(const Eigen::Vector2d& place) const {
@@ -51,8 +57,8 @@ class LocalMap {
   void Clear();
 
  private:
-  bool Merge(const SurfacePoint& point, const Eigen::Vector2d& place,
-             const Eigen::Vector2d& normal);
+  bool Merge(const SurfacePoint& point, const Eigen::Vector2d& place, const Eigen::Vector2d& normal,
+             double way);
 
   LocalMapOptions options_;
   RangeNoise noise_;

@@ -22,10 +22,12 @@ struct LocalMapMatcherOptions {
   LocalMapOptions local_map;
   EdgeMapOptions edge_map;
   RefinementOptions refinement;
-  double prior_kernel = 5.0;          ///< see MotionPrior [-]
-  double insert_distance = 0.05;      ///< from the last scan that entered the map [m]
-  double insert_angle = 0.05;         ///< [rad]
-  int insert_first = 20;              ///< scans at the start that enter the map in any case
+  double prior_kernel = 5.0;      ///< see MotionPrior [-]
+  double insert_distance = 0.05;  ///< from the last scan that entered the map [m]
+  double insert_angle = 0.05;     ///< [rad]
+  int insert_first = 20;          ///< scans at the start that enter the map in any case
+  double forget_distance =
+      20.0;  ///< what was not seen on the last stretch of this length drops [m]
   double min_matched_fraction = 0.2;  ///< of the points of a scan, to enter it into the map [-]
 };
 
@@ -48,6 +50,7 @@ class LocalMapMatcher {
  private:
   SearchResult Search(const std::vector<SurfacePoint>& points, const Pose2& map_from_predicted,
                       const MotionPrediction& prediction) const;
+  void ForgetOldSurroundings();
   void InsertIfMoved(const std::vector<SurfacePoint>& points, const Pose2& map_from_base);
 
   LocalMapMatcherOptions options_;
@@ -55,6 +58,9 @@ class LocalMapMatcher {
   EdgeMap edge_map_;
   Pose2 map_from_inserted_;
   int inserted_ = 0;
+  int unmatched_ = 0;  ///< scans since the last that showed something known
+  double way_ = 0.0;   ///< driven so far [m]
+  double way_at_forgetting_ = 0.0;
 };
 
 }  // namespace scan_image_slam

@@ -17,6 +17,7 @@ struct MatchOutcome {
   int points = 0;      ///< points of the scan
   int matched = 0;     ///< points that found a counterpart
   bool on_window_edge = false;
+  bool too_few_points = false;        ///< the scan shows too little of what is known
   bool degenerate = false;            ///< one direction was left to the prediction
   double degenerate_direction = 0.0;  ///< in the base frame [rad]
 };

@@ -25,7 +25,7 @@ enum class MatchStatus {
   kMatched,       ///< the best motion lies inside the window
   kOnWindowEdge,  ///< the best motion lies on the border: the encoders were more wrong than allowed
   kDegenerate,    ///< matched, but one direction was left to the prediction
-  kTooFewPoints,  ///< the scan shows too little of the reference: the prediction was kept
+  kTooFewPoints,  ///< the scan shows too little of the reference: mostly the prediction
 };
 
 /// The motion of the base from a reference scan to this one, and the evidence for it.

@@ -39,9 +39,10 @@ struct Refinement {
   Pose2 map_from_base;
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  ///< of (forward, left, turn) in the base frame [m, m, rad]
-  Eigen::Matrix3d scan_information = Eigen::Matrix3d::Zero();  ///< of the scan alone
-  int matched = 0;                                             ///< points that found an element
-  int matched_edges = 0;                                       ///< edges that found a landmark
+  Eigen::Matrix3d information =
+      Eigen::Matrix3d::Zero();        ///< of scan and edges without the prior, of the same three
+  int matched = 0;                    ///< points that found an element
+  int matched_edges = 0;              ///< edges that found a landmark
   double rms = 0.0;                   ///< weighted residual across the walls [m]
   bool degenerate = false;            ///< one direction was left to the prior
   double degenerate_direction = 0.0;  ///< in the base frame [rad]

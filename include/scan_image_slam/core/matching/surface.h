@@ -43,4 +43,9 @@ struct SurfaceOptions {
 std::vector<SurfacePoint> EstimateSurface(const FusedModel& model, const SurfaceOptions& options,
                                           const RangeNoise& noise);
 
+/// Moves each point by what the base moved differently from what was thought, `difference`, since
+/// its beam fired.
+std::vector<SurfacePoint> CorrectSweep(std::vector<SurfacePoint> points,
+                                       const Velocity2& difference);
+
 }  // namespace scan_image_slam

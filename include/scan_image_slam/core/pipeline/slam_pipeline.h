@@ -2,6 +2,7 @@
 
 #include "scan_image_slam/core/config/slam_parameters.h"
 #include "scan_image_slam/core/fusion/scan_image_fusion.h"
+#include "scan_image_slam/core/mapping/loop_closer.h"
 #include "scan_image_slam/core/mapping/mapper.h"
 #include "scan_image_slam/core/matching/bounded_icp.h"
 #include "scan_image_slam/core/sensor/odometry_gate.h"
@@ -11,7 +12,7 @@
 
 namespace scan_image_slam {
 
-enum class Stage { kFusion, kMatch, kMap };
+enum class Stage { kFusion, kMatch, kMap, kLoop };
 
 /// What happens to one scan on its way through the stages.
 struct PipelineResult {
@@ -30,6 +31,7 @@ class SlamPipeline {
 
   ScanImageFusion& fusion() { return fusion_; }
   Mapper& mapper() { return mapper_; }
+  const LoopCloser& loop_closer() const { return loop_closer_; }
 
   /// Inputs, in the order of their arrival at times `now` [ns].
   void AddOdometry(Stamp stamp, const Pose2& odom_from_base, Stamp now);
@@ -51,6 +53,7 @@ class SlamPipeline {
   ScanImageFusion fusion_;
   BoundedIcp bounded_icp_;
   Mapper mapper_;
+  LoopCloser loop_closer_;
   OdometryGate<LaserScan> gate_;
   std::optional<Stamp> last_scan_stamp_;
   int stale_ = 0;

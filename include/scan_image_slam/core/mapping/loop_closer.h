@@ -1,0 +1,81 @@
+#pragma once
+
+#include "scan_image_slam/core/mapping/keyframe.h"
+#include "scan_image_slam/core/mapping/loop_matcher.h"
+#include "scan_image_slam/core/mapping/pose_graph.h"
+#include "scan_image_slam/core/mapping/submap.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace scan_image_slam {
+
+struct LoopCloserOptions {
+  bool enabled = true;  ///< false: keyframes stay where the matching has put them
+  SubmapOptions submap;
+  LoopMatcherOptions matcher;
+  GraphOptions graph;
+  double submap_way = 10.0;               ///< driven within one submap [m]
+  double query_way = 4.0;                 ///< driven within what is compared with a submap [m]
+  double min_loop_way = 25.0;             ///< driven between two visits of a place [m]
+  double max_distance = 4.0;              ///< between two keyframes that see the same place [m]
+  double min_window = 0.2;                ///< half of the search window [m]
+  double window_per_way = 0.04;           ///< it grows with the way between two keyframes [m/m]
+  double max_window = 6.0;                ///< [m]
+  double min_angle = 0.05;                ///< half of the search window [rad]
+  double angle_per_way = 0.006;           ///< [rad/m]
+  double max_angle = 0.6;                 ///< [rad]
+  double track_window = 0.5;              ///< smaller windows need no search [m]
+  double closure_distance_stddev = 0.02;  ///< of a recognised place, at best [m]
+  double closure_angle_stddev = 0.004;    ///< [rad]
+  int max_matches = 2;                    ///< submaps compared with one keyframe
+  int max_cached_submaps = 12;
+};
+
+/// Recognises places seen before and keeps the poses of all keyframes consistent: the back-end of
+/// the mapper.
+class LoopCloser {
+ public:
+  explicit LoopCloser(const LoopCloserOptions& options);
+
+  /// Adds the next keyframe; number 0 starts a new map. Returns true if keyframes have moved.
+  bool Add(std::shared_ptr<const Keyframe> keyframe);
+
+  /// map_from_base of each keyframe.
+  const std::vector<Pose2>& poses() const { return poses_; }
+  const std::vector<GraphConstraint>& constraints() const { return constraints_; }
+  int closures() const { return closures_; }
+
+ private:
+  /// Keyframes begin .. end - 1.
+  struct Range {
+    int begin = 0;
+    int end = 0;
+  };
+  void ExtendSubmaps();
+  Submap& GetSubmap(int id);
+  std::vector<double> WayInGraph(int from) const;
+  std::vector<std::pair<int, int>> Candidates(int id) const;
+  LoopQuery MakeQuery(int id, double way) const;
+  std::optional<GraphConstraint> Close(int id, int submap_id, int near_id, double way);
+  bool Optimize(const std::vector<GraphConstraint>& closures);
+
+  LoopCloserOptions options_;
+  std::vector<std::shared_ptr<const Keyframe>> keyframes_;
+  std::vector<Pose2> poses_;
+  std::vector<GraphConstraint> constraints_;
+  std::vector<std::vector<std::pair<int, double>>> neighbours_;
+  std::vector<Range> submaps_;
+  struct CachedSubmap {
+    std::unique_ptr<Submap> submap;
+    int used = 0;
+  };
+  std::map<int, CachedSubmap> cache_;
+  int use_count_ = 0;
+  int closures_ = 0;
+  int closures_since_optimization_ = 0;
+};
+
+}  // namespace scan_image_slam

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "scan_image_slam/core/geometry/pose2.h"
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace scan_image_slam {
+
+/// A measured pose of one node in the frame of another.
+struct GraphConstraint {
+  int from = 0;
+  int to = 0;
+  Pose2 from_from_to;
+  Eigen::Matrix3d information =
+      Eigen::Matrix3d::Identity();  ///< of (forward, left, turn) of `to` [1/m^2, 1/m^2, 1/rad^2]
+  bool robust = false;              ///< a recognised place, which may be wrong: Cauchy's loss
+};
+
+/// Squared residual of a constraint, in standard deviations.
+double SquaredResidual(const GraphConstraint& constraint, const std::vector<Pose2>& nodes);
+
+struct GraphOptions {
+  int max_iterations = 20;
+  double kernel = 3.0;  ///< a robust residual of so many standard deviations counts half [-]
+};
+
+/// Poses that fit the constraints best (least squares, by Ceres), from `nodes` on. Nodes before
+/// `first_free` stay where they are; at least the first one does.
+std::vector<Pose2> OptimizeGraph(std::vector<Pose2> nodes,
+                                 const std::vector<GraphConstraint>& constraints, int first_free,
+                                 const GraphOptions& options);
+
+}  // namespace scan_image_slam

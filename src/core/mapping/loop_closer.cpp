@@ -1,0 +1,209 @@
+#include "scan_image_slam/core/mapping/loop_closer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include <Eigen/LU>
+
+namespace scan_image_slam {
+namespace {
+
+/// Adds an error of its own to what is known: (information^-1 + noise)^-1, also where nothing is.
+Eigen::Matrix3d WithNoise(const Eigen::Matrix3d& information, const Eigen::Matrix3d& noise) {
+  const Eigen::Matrix3d sum =
+      (Eigen::Matrix3d::Identity() + information * noise).inverse() * information;
+  return 0.5 * (sum + sum.transpose());
+}
+
+}  // namespace
+
+LoopCloser::LoopCloser(const LoopCloserOptions& options) : options_(options) {}
+
+bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
+  if (!options_.enabled) return false;
+  if (keyframe->id == 0) *this = LoopCloser(options_);  // the map has begun anew
+  const int id = static_cast<int>(keyframes_.size());
+  keyframes_.push_back(std::move(keyframe));
+  const Keyframe& added = *keyframes_.back();
+  neighbours_.emplace_back();
+  if (id == 0) {
+    poses_.push_back(added.previous_from_base);
+  } else {
+    poses_.push_back(poses_.back() * added.previous_from_base);
+    constraints_.push_back(
+        {id - 1, id, added.previous_from_base, added.covariance.inverse(), !added.joined});
+    const double way = added.way - keyframes_[id - 1]->way;
+    neighbours_[id].push_back({id - 1, way});
+    neighbours_[id - 1].push_back({id, way});
+  }
+  ExtendSubmaps();
+  std::vector<GraphConstraint> closures;
+  const std::vector<double> way = WayInGraph(id);
+  for (const auto& [near_id, submap_id] : Candidates(id)) {
+    if (auto closure = Close(id, submap_id, near_id, way[near_id])) closures.push_back(*closure);
+  }
+  if (closures.empty()) return false;
+  for (const GraphConstraint& closure : closures) {
+    neighbours_[closure.from].push_back({closure.to, 0.5});
+    neighbours_[closure.to].push_back({closure.from, 0.5});
+  }
+  closures_ += static_cast<int>(closures.size());
+  return Optimize(closures);
+}
+
+void LoopCloser::ExtendSubmaps() {
+  const int id = static_cast<int>(keyframes_.size()) - 1;
+  const Keyframe& keyframe = *keyframes_[id];
+  const bool begins =
+      submaps_.empty() || !keyframe.joined ||
+      keyframe.way - keyframes_[submaps_.back().begin]->way > 0.5 * options_.submap_way;
+  for (std::size_t i = submaps_.size(); i-- > 0;) {
+    Range& range = submaps_[i];
+    if (range.end != id) break;
+    if (keyframe.joined && keyframe.way - keyframes_[range.begin]->way <= options_.submap_way) {
+      range.end = id + 1;
+    }
+  }
+  if (begins) submaps_.push_back({id, id + 1});
+}
+
+Submap& LoopCloser::GetSubmap(int id) {
+  CachedSubmap& cached = cache_[id];
+  cached.used = ++use_count_;
+  if (!cached.submap) {
+    const Range range = submaps_[id];
+    cached.submap = std::make_unique<Submap>(
+        std::vector<std::shared_ptr<const Keyframe>>(keyframes_.begin() + range.begin,
+                                                     keyframes_.begin() + range.end),
+        options_.submap);
+  }
+  if (static_cast<int>(cache_.size()) > options_.max_cached_submaps) {
+    const auto oldest = std::min_element(
+        cache_.begin(), cache_.end(),
+        [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
+    cache_.erase(oldest);
+  }
+  return *cached.submap;
+}
+
+/// Length of the shortest way in the graph from a keyframe to all others, as a measure of how far
+/// they may have drifted from one another (Dijkstra).
+std::vector<double> LoopCloser::WayInGraph(int from) const {
+  std::vector<double> way(keyframes_.size(), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  way[from] = 0.0;
+  open.push({0.0, from});
+  while (!open.empty()) {
+    const auto [distance, id] = open.top();
+    open.pop();
+    if (distance > way[id]) continue;
+    for (const auto& [next, length] : neighbours_[id]) {
+      if (distance + length >= way[next]) continue;
+      way[next] = distance + length;
+      open.push({way[next], next});
+    }
+  }
+  return way;
+}
+
+/// Keyframes of former visits near a keyframe and the submaps that hold them, nearest first.
+std::vector<std::pair<int, int>> LoopCloser::Candidates(int id) const {
+  const Keyframe& keyframe = *keyframes_[id];
+  struct Candidate {
+    double distance;
+    int near_id;
+    int submap_id;
+  };
+  std::vector<Candidate> found;
+  for (std::size_t s = 0; s < submaps_.size(); ++s) {
+    const Range range = submaps_[s];
+    if (keyframe.way - keyframes_[range.end - 1]->way < options_.min_loop_way) break;
+    Candidate best{std::numeric_limits<double>::infinity(), 0, static_cast<int>(s)};
+    for (int i = range.begin; i < range.end; ++i) {
+      const double distance = (poses_[i].translation() - poses_[id].translation()).norm();
+      if (distance < best.distance) {
+        best.distance = distance;
+        best.near_id = i;
+      }
+    }
+    if (best.distance < options_.max_distance + options_.max_window) found.push_back(best);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+  std::vector<std::pair<int, int>> chosen;
+  for (const Candidate& c : found) {
+    const bool overlaps = std::any_of(chosen.begin(), chosen.end(), [&](const auto& other) {
+      return std::abs(other.second - c.submap_id) <= 1;
+    });
+    if (overlaps) continue;
+    chosen.push_back({c.near_id, c.submap_id});
+    if (static_cast<int>(chosen.size()) == options_.max_matches) break;
+  }
+  return chosen;
+}
+
+LoopQuery LoopCloser::MakeQuery(int id, double way) const {
+  LoopQuery query;
+  Pose2 base_from_keyframe;
+  for (int i = id; i >= 0 && keyframes_[id]->way - keyframes_[i]->way <= way; --i) {
+    const std::vector<SurfacePoint> points = ToSurfacePoints(*keyframes_[i], base_from_keyframe);
+    query.points.insert(query.points.end(), points.begin(), points.end());
+    if (!keyframes_[i]->joined) break;
+    base_from_keyframe = base_from_keyframe * keyframes_[i]->previous_from_base.Inverse();
+  }
+  query.edges = DistinctEdges(keyframes_[id]->edges, options_.submap.edge_map);
+  return query;
+}
+
+std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near_id, double way) {
+  const double half =
+      std::min(options_.max_window, options_.min_window + options_.window_per_way * way);
+  const double half_angle =
+      std::min(options_.max_angle, options_.min_angle + options_.angle_per_way * way);
+  const double distance = (poses_[near_id].translation() - poses_[id].translation()).norm();
+  if (distance > options_.max_distance + half) return std::nullopt;
+  Submap& submap = GetSubmap(submap_id);
+  const Pose2& submap_from_near =
+      submap.submap_from_keyframes()[near_id - submaps_[submap_id].begin];
+  const Pose2 expected = submap_from_near * (poses_[near_id].Inverse() * poses_[id]);
+  const bool track = half < options_.track_window;
+  const std::optional<LoopMatch> match =
+      track ? TrackInSubmap(MakeQuery(id, 0.0), submap, expected, options_.matcher)
+            : FindInSubmap(MakeQuery(id, options_.query_way), &submap, {expected, half, half_angle},
+                           options_.matcher);
+  if (!match) return std::nullopt;
+  const double s = options_.closure_distance_stddev;
+  const double a = options_.closure_angle_stddev;
+  GraphConstraint closure;
+  closure.from = near_id;
+  closure.to = id;
+  closure.from_from_to = submap_from_near.Inverse() * match->submap_from_base;
+  closure.information =
+      WithNoise(match->information, Eigen::Vector3d(s * s, s * s, a * a).asDiagonal());
+  closure.robust = true;
+  return closure;
+}
+
+bool LoopCloser::Optimize(const std::vector<GraphConstraint>& closures) {
+  constexpr double kSurprise = 9.0;  // squared standard deviations
+  constexpr int kMaxClosures = 30;
+  constexpr int kRecent = 40;
+  bool surprise = false;
+  for (const GraphConstraint& closure : closures) {
+    surprise = surprise || SquaredResidual(closure, poses_) > kSurprise;
+    constraints_.push_back(closure);
+  }
+  closures_since_optimization_ += static_cast<int>(closures.size());
+  const bool all = surprise || closures_since_optimization_ >= kMaxClosures;
+  if (all) closures_since_optimization_ = 0;
+  const int count = static_cast<int>(poses_.size());
+  poses_ =
+      OptimizeGraph(poses_, constraints_, all ? 1 : std::max(1, count - kRecent), options_.graph);
+  return true;
+}
+
+}  // namespace scan_image_slam

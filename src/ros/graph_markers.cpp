@@ -1,0 +1,65 @@
+#include "scan_image_slam/ros/graph_markers.h"
+
+#include <cstddef>
+
+namespace scan_image_slam {
+namespace {
+
+geometry_msgs::Point ToPoint(const Pose2& pose) {
+  geometry_msgs::Point point;
+  point.x = pose.x;
+  point.y = pose.y;
+  return point;
+}
+
+std_msgs::ColorRGBA Colour(float red, float green, float blue) {
+  std_msgs::ColorRGBA colour;
+  colour.r = red;
+  colour.g = green;
+  colour.b = blue;
+  colour.a = 1.0F;
+  return colour;
+}
+
+}  // namespace
+
+visualization_msgs::MarkerArray ToMarkers(const GraphState& graph, const std::string& map_frame,
+                                          const ros::Time& stamp) {
+  visualization_msgs::Marker marker;
+  marker.header.frame_id = map_frame;
+  marker.header.stamp = stamp;
+  marker.pose.orientation.w = 1.0;
+
+  visualization_msgs::Marker keyframes = marker;
+  keyframes.ns = "keyframes";
+  keyframes.type = visualization_msgs::Marker::POINTS;
+  keyframes.scale.x = 0.06;
+  keyframes.scale.y = 0.06;
+  keyframes.color = Colour(0.1F, 0.5F, 0.1F);
+
+  visualization_msgs::Marker way = marker;
+  way.ns = "way";
+  way.type = visualization_msgs::Marker::LINE_STRIP;
+  way.scale.x = 0.02;
+  way.color = Colour(0.1F, 0.7F, 0.1F);
+
+  visualization_msgs::Marker closures = marker;
+  closures.ns = "closures";
+  closures.type = visualization_msgs::Marker::LINE_LIST;
+  closures.scale.x = 0.03;
+  closures.color = Colour(0.9F, 0.2F, 0.7F);
+
+  for (const Pose2& pose : graph.poses) {
+    keyframes.points.push_back(ToPoint(pose));
+    way.points.push_back(ToPoint(pose));
+  }
+  for (const auto& [from, to] : graph.closures) {
+    closures.points.push_back(ToPoint(graph.poses[static_cast<std::size_t>(from)]));
+    closures.points.push_back(ToPoint(graph.poses[static_cast<std::size_t>(to)]));
+  }
+  visualization_msgs::MarkerArray array;
+  array.markers = {keyframes, way, closures};
+  return array;
+}
+
+}  // namespace scan_image_slam
