@@ -8,17 +8,18 @@ namespace scan_image_slam {
 namespace {
 
 constexpr double kTellPeriod = 5.0;      // [s]
-constexpr double kFirstTell = 3.0;       // so that a missing input is named within five seconds [s]
+constexpr double kFirstTell = 2.5;       // so that a missing input is named within five seconds [s]
+constexpr double kLookPeriod = 0.5;      // [s]
 constexpr double kDiagnosePeriod = 1.0;  // [s]
 constexpr double kSilence = 2.0;         // after which a topic counts as gone [s]
 
 }  // namespace
 
-InputWatch::InputWatch(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name)
-    : updater_(node, private_node, "/" + name), begin_(ros::WallTime::now()) {
+InputWatch::InputWatch(ros::NodeHandle node, ros::NodeHandle private_node)
+    : updater_(node, private_node, private_node.getNamespace()), begin_(ros::WallTime::now()) {
   updater_.setHardwareID("none");
   updater_.add("inputs", this, &InputWatch::Diagnose);
-  tell_timer_ = node.createWallTimer(ros::WallDuration(1.0), &InputWatch::Tell, this);
+  tell_timer_ = node.createWallTimer(ros::WallDuration(kLookPeriod), &InputWatch::Tell, this);
   diagnose_timer_ =
       node.createWallTimer(ros::WallDuration(kDiagnosePeriod),
                            [this](const ros::WallTimerEvent&) { updater_.force_update(); });

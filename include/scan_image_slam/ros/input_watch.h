@@ -15,8 +15,8 @@ namespace scan_image_slam {
 /// seconds until it is there, and in /diagnostics.
 class InputWatch {
  public:
-  /// `name` of the node, for /diagnostics.
-  InputWatch(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name);
+  /// /diagnostics names the node after `private_node`, with its namespace.
+  InputWatch(ros::NodeHandle node, ros::NodeHandle private_node);
 
   /// A topic that should come. `optional`: the node works without it, with less.
   void Expect(const ros::Subscriber& subscriber, const std::string& type, bool optional);

@@ -19,13 +19,30 @@ enum class MatchMode {
   kCoasting,    ///< no laser: encoders alone, or constant velocity
 };
 
+/// As in the report of a run and in diagnostics.
+inline const char* ModeName(MatchMode mode) {
+  switch (mode) {
+    case MatchMode::kFull:
+      return "full";
+    case MatchMode::kNoCamera:
+      return "no_camera";
+    case MatchMode::kNoEncoders:
+      return "no_encoders";
+    case MatchMode::kLaserOnly:
+      return "laser_only";
+    case MatchMode::kCoasting:
+      return "coasting";
+  }
+  return "unknown";
+}
+
 /// What became of one match.
 enum class MatchStatus {
   kFirst,         ///< nothing to match with yet
   kMatched,       ///< the best motion lies inside the window
   kOnWindowEdge,  ///< the best motion lies on the border: the encoders were more wrong than allowed
   kDegenerate,    ///< matched, but one direction was left to the prediction
-  kTooFewPoints,  ///< the scan shows too little of the reference: the prediction was kept
+  kTooFewPoints,  ///< the scan shows nothing of the reference: the prediction was kept
 };
 
 /// The motion of the base from a reference scan to this one, and the evidence for it.
