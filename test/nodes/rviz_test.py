@@ -61,7 +61,9 @@ UNKNOWN = numpy.array((0x86, 0x89, 0x70))  # colour of rviz for cells of which n
 
 
 def largest(mask):
-    """Bounding box of the largest area: x, y, width, height; None if there is none."""
+    """Bounding box of the largest area: x, y, width, height; without size if there is none."""
+    if mask.size == 0:
+        return (0, 0, 0, 0)
     count, _, boxes, _ = cv2.connectedComponentsWithStats(mask)
     return max((tuple(int(v) for v in box) for box in boxes[1:count]), key=lambda box: box[4],
                default=(0, 0, 0, 0, 0))[:4]
