@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bad scans in the middle of a drive: the nodes say why and go on, and good scans match as before."""
+"""Bad scans in the middle of a drive: the nodes say why and go on, and good scans still match."""
 
 import math
 import unittest

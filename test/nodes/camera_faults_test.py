@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A camera that is not as it should be: the node says so and goes on without it, and with it again."""
+"""A camera that is not as it should be: the node says so, goes on without it, and with it again."""
 
 import unittest
 

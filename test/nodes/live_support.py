@@ -1,4 +1,4 @@
-"""What the live tests share: hand-made messages of a robot in a room, and waiting for conditions."""
+"""What the live tests share: hand-made messages of a robot in a room; waiting for conditions."""
 
 import math
 import os
@@ -23,7 +23,7 @@ WALLS = (-3.0, 5.0, -2.0, 4.0)  # of the room: min_x, max_x, min_y, max_y [m]
 
 
 def wait_for(condition, what, deadline=DEADLINE):
-    """Returns what `condition` gives as soon as it is true; fails, saying `what`, if it never is."""
+    """Returns what `condition` gives once it is true; fails, saying `what`, if it never is."""
     end = time.monotonic() + deadline
     while time.monotonic() < end:
         result = condition()
@@ -252,7 +252,7 @@ def read_tum(path):
 
 
 def make_model(seconds, pose=(0.0, 0.0, 0.0), beams=360):
-    """The model that scan_image_fusion makes of room_scan(seconds, pose) with a laser in the middle."""
+    """What scan_image_fusion makes of room_scan(seconds, pose) with a laser in the middle."""
     from scan_image_slam.msg import IcpModel
     bearings = -math.pi + 2 * math.pi / beams * numpy.arange(beams)
     ranges = cast(pose[0], pose[1], pose[2] + bearings)

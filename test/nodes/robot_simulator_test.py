@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The simulated robot: what its drivers publish and how often, and that it goes where it is told."""
+"""The simulated robot: what its drivers publish and how often; it goes where it is told."""
 
 import math
 import unittest

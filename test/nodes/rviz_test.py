@@ -126,8 +126,7 @@ class RvizTest(unittest.TestCase):
             last[:] = [self.screen.picture()]
             return self.is_room(last[0])
         try:
-            wait_for(seen, lambda: f'the room in the picture; what is known lies at {known_part(last[0])}',
-                     120)
+            wait_for(seen, lambda: f'the room in the picture; known is {known_part(last[0])}', 120)
         finally:
             folder = os.environ.get('SCAN_IMAGE_SLAM_TEST_PICTURES')
             if folder and last:

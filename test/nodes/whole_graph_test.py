@@ -12,8 +12,8 @@ import rosbag
 import rospy
 import rostest
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from live_support import (Player, Recorder, angle_difference, program, read_tum, run, simulate, wait_for,
-                          yaw_of)
+from live_support import (Player, Recorder, angle_difference, program, read_tum, run, simulate,
+                          wait_for, yaw_of)
 from nav_msgs.msg import OccupancyGrid, Path
 from rosgraph_msgs.msg import Clock
 from scan_image_slam.msg import ScanMatch
