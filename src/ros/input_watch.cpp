@@ -55,8 +55,15 @@ void InputWatch::SetProblem(const std::string& key, const std::string& text) {
 }
 
 void InputWatch::Refuse(const std::string& topic, const std::string& reason) {
-  ++refused_[topic + ": " + reason];
-  ROS_WARN_STREAM_THROTTLE(kTellPeriod, topic << ": a message was not used: " << reason);
+  constexpr std::size_t kMaxReasons = 100;  // a reason may hold numbers that are always others
+  const std::string key = topic + ": " + reason;
+  if (refused_.size() >= kMaxReasons && refused_.count(key) == 0) refused_.clear();
+  Refusal& refusal = refused_[key];
+  ++refusal.messages;
+  const ros::WallTime now = ros::WallTime::now();
+  if ((now - refusal.told).toSec() < kTellPeriod) return;
+  refusal.told = now;
+  ROS_WARN_STREAM(topic << ": a message was not used: " << reason);
 }
 
 void InputWatch::AddValue(const std::string& key, std::function<std::string()> value) {
@@ -106,7 +113,9 @@ void InputWatch::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   for (const auto& [key, text] : problems_) {
     status.mergeSummary(DiagnosticStatus::WARN, key + ": " + text);
   }
-  for (const auto& [reason, count] : refused_) status.add("refused: " + reason, count);
+  for (const auto& [reason, refusal] : refused_) {
+    status.add("refused: " + reason, refusal.messages);
+  }
   for (const auto& [key, value] : values_) status.add(key, value());
 }
 

@@ -54,7 +54,7 @@ class BagLoopTest(unittest.TestCase):
         for one in (second, third):
             # Hardly anything is lost where the bag begins again.
             self.assertLess((one[0].header.stamp.to_nsec() - scans[0]) / 1e9, 0.5)
-            self.assertEqual(one[-1].header.stamp.to_nsec(), scans[-1])
+            self.assertLess((scans[-1] - one[-1].header.stamp.to_nsec()) / 1e9, 0.2)
             self.assertGreater(len(one), 0.9 * len(scans))
             # Everything started over: the poses are again those of the first pass.
             known = {m.header.stamp: m.pose.pose.position for m in first}
