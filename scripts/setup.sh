@@ -30,7 +30,8 @@ debian_packages=(
 )
 debian_test_packages=(
   catkin-lint catkin-tools clang-format clang-tidy git imagemagick libbenchmark-dev libgl1-mesa-dri
-  libgtest-dev libgmock-dev python3-rostest python3-yaml xvfb x11-utils
+  libgtest-dev libgmock-dev python3-numpy python3-opencv python3-rospkg python3-rospy
+  python3-rostest python3-yaml xvfb x11-utils
 )
 ubuntu_packages=(
   cmake g++ ninja-build ccache
@@ -44,7 +45,7 @@ ubuntu_packages=(
 )
 ubuntu_test_packages=(
   catkin-lint python3-catkin-tools clang-format clang-tidy git imagemagick libbenchmark-dev
-  libgl1-mesa-dri libgtest-dev libgmock-dev python3-yaml xvfb x11-utils
+  libgl1-mesa-dri libgtest-dev libgmock-dev python3-opencv python3-rospkg python3-yaml xvfb x11-utils
 )
 
 . /etc/os-release

@@ -302,7 +302,6 @@ void BagInput::PlayCameraInfo(const rosbag::MessageInstance& message, SlamPipeli
 
 void BagInput::PlayImage(const rosbag::MessageInstance& message, SlamPipeline* pipeline,
                          const SlamPipeline::RunStage& run) {
-  if (!camera_set_) throw std::invalid_argument("no usable camera_info has come yet");
   CameraImage image;
   run(Stage::kFusion, [&] {
     if (const auto raw = message.instantiate<sensor_msgs::Image>()) {

@@ -48,7 +48,7 @@ BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_nod
     : options_(ReadOptions(private_node)),
       bounded_icp_(options_.bounded_icp),
       gate_(options_.node.odometry.max_wait, kMaxWaitingModels),
-      watch_(node, private_node, "bounded_icp"),
+      watch_(node, private_node),
       tf_listener_(tf_, node) {
   match_publisher_ = node.advertise<ScanMatch>("scan_match", kModelQueue);
   window_publisher_ = node.advertise<visualization_msgs::MarkerArray>("search_window", 1);
@@ -60,6 +60,7 @@ BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_nod
                                      ros::TransportHints().tcpNoDelay());
   watch_.Expect(model_subscriber_, "scan_image_slam/IcpModel", false);
   watch_.AddValue("last match", [this] { return StatusText(last_match_.status); });
+  watch_.AddValue("mode", [this] { return ModeName(last_match_.mode); });
   watch_.AddValue("matches", [this] { return std::to_string(matches_); });
   watch_.AddValue("window edge hits", [this] { return std::to_string(window_edge_hits_); });
   watch_.AddValue("models dropped", [this] { return std::to_string(gate_.dropped()); });
@@ -88,7 +89,7 @@ void BoundedIcpNode::OnModel(const IcpModelConstPtr& message) {
     FusedModel model = FromMessage(*message);
     switch (time_guard_.Check(model.stamp)) {
       case TimeGuard::Verdict::kStale:
-        return;
+        throw std::invalid_argument("its stamp is not later than that of the model before");
       case TimeGuard::Verdict::kRestarts:
         StartOver("time went back");
         break;

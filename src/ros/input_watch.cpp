@@ -8,17 +8,18 @@ namespace scan_image_slam {
 namespace {
 
 constexpr double kTellPeriod = 5.0;      // [s]
-constexpr double kFirstTell = 3.0;       // so that a missing input is named within five seconds [s]
+constexpr double kFirstTell = 2.5;       // so that a missing input is named within five seconds [s]
+constexpr double kLookPeriod = 0.5;      // [s]
 constexpr double kDiagnosePeriod = 1.0;  // [s]
 constexpr double kSilence = 2.0;         // after which a topic counts as gone [s]
 
 }  // namespace
 
-InputWatch::InputWatch(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name)
-    : updater_(node, private_node, "/" + name), begin_(ros::WallTime::now()) {
+InputWatch::InputWatch(ros::NodeHandle node, ros::NodeHandle private_node)
+    : updater_(node, private_node, private_node.getNamespace()), begin_(ros::WallTime::now()) {
   updater_.setHardwareID("none");
   updater_.add("inputs", this, &InputWatch::Diagnose);
-  tell_timer_ = node.createWallTimer(ros::WallDuration(1.0), &InputWatch::Tell, this);
+  tell_timer_ = node.createWallTimer(ros::WallDuration(kLookPeriod), &InputWatch::Tell, this);
   diagnose_timer_ =
       node.createWallTimer(ros::WallDuration(kDiagnosePeriod),
                            [this](const ros::WallTimerEvent&) { updater_.force_update(); });
@@ -54,8 +55,15 @@ void InputWatch::SetProblem(const std::string& key, const std::string& text) {
 }
 
 void InputWatch::Refuse(const std::string& topic, const std::string& reason) {
-  ++refused_[topic + ": " + reason];
-  ROS_WARN_STREAM_THROTTLE(kTellPeriod, topic << ": a message was not used: " << reason);
+  constexpr std::size_t kMaxReasons = 100;  // a reason may hold numbers that are always others
+  const std::string key = topic + ": " + reason;
+  if (refused_.size() >= kMaxReasons && refused_.count(key) == 0) refused_.clear();
+  Refusal& refusal = refused_[key];
+  ++refusal.messages;
+  const ros::WallTime now = ros::WallTime::now();
+  if ((now - refusal.told).toSec() < kTellPeriod) return;
+  refusal.told = now;
+  ROS_WARN_STREAM(topic << ": a message was not used: " << reason);
 }
 
 void InputWatch::AddValue(const std::string& key, std::function<std::string()> value) {
@@ -105,7 +113,9 @@ void InputWatch::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   for (const auto& [key, text] : problems_) {
     status.mergeSummary(DiagnosticStatus::WARN, key + ": " + text);
   }
-  for (const auto& [reason, count] : refused_) status.add("refused: " + reason, count);
+  for (const auto& [reason, refusal] : refused_) {
+    status.add("refused: " + reason, refusal.messages);
+  }
   for (const auto& [key, value] : values_) status.add(key, value());
 }
 

@@ -46,7 +46,7 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadOptions(private_node)),
       mapper_(options_.mapper),
       loop_closing_(options_.loop_closer),
-      watch_(node, private_node, "mapper"),
+      watch_(node, private_node),
       transform_publisher_(node, options_.node),
       map_publisher_(node, options_.node.map_frame),
       trajectory_(node, "trajectory", options_.node.map_frame, options_.node.trajectory_spacing),

@@ -1,6 +1,7 @@
 #include "scan_image_slam/ros/node_parameters.h"
 
-#include <map>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,17 @@
 namespace scan_image_slam {
 namespace {
 
-/// Names below ours that belong to the libraries we use.
+/// Names below ours that belong to the libraries we use: settings of image_transport, which are
+/// kept below the topic of a picture or below the node, and the period of diagnostic_updater.
 bool BelongsToLibrary(const std::string& name) {
-  for (const char* prefix : {"image_raw/", "fusion/image/", "diagnostic_period"}) {
-    if (name.rfind(prefix, 0) == 0) return true;
+  static const std::set<std::string> kNames = {"diagnostic_period", "mode",
+                                               "post_processing_level"};
+  static const std::set<std::string> kParts = {"compressed", "compressedDepth", "theora",
+                                               "disable_pub_plugins", "enable_pub_plugins"};
+  if (kNames.count(name) != 0) return true;
+  std::istringstream parts(name);
+  for (std::string part; std::getline(parts, part, '/');) {
+    if (kParts.count(part) != 0) return true;
   }
   return false;
 }
@@ -37,6 +45,7 @@ ParameterValue ToValue(const std::string& full_name, XmlRpc::XmlRpcValue& value)
 
 void ReadParameters(const ros::NodeHandle& private_node, ParameterSet* set) {
   const std::string prefix = private_node.getNamespace() + "/";
+  set->set_node(private_node.getNamespace());
   std::vector<std::string> names;
   ros::param::getParamNames(names);
   for (const std::string& full_name : names) {

@@ -17,7 +17,7 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr std::uint32_t kScanQueue = 5;
+constexpr std::uint32_t kScanQueue = 20;  // half a second at the usual rates
 constexpr std::uint32_t kImageQueue = 2;
 constexpr std::uint32_t kModelQueue = 20;
 constexpr std::size_t kMaxWaitingScans = 20;
@@ -40,7 +40,11 @@ ScanImageFusionNode::Options ScanImageFusionNode::ReadOptions(const ros::NodeHan
   Options options;
   ParameterSet set = FusionParameters(&options.fusion, &options.node);
   ReadParameters(private_node, &set);
-  options.fusion.Validate();
+  try {
+    options.fusion.Validate();
+  } catch (const std::invalid_argument& error) {
+    throw ParameterError(private_node.getNamespace() + "/" + error.what());
+  }
   return options;
 }
 
@@ -48,7 +52,7 @@ ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle p
     : options_(ReadOptions(private_node)),
       fusion_(options_.fusion),
       gate_(options_.node.odometry.max_wait, kMaxWaitingScans),
-      watch_(node, private_node, "scan_image_fusion"),
+      watch_(node, private_node),
       tf_listener_(tf_, node),
       laser_mount_("laser", options_.node.laser, false, options_.node.odometry.base_frame, &tf_,
                    &watch_),
@@ -61,12 +65,10 @@ ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle p
   odometry_ = std::make_unique<OdometryFeed>(
       node, options_.node.odometry, &tf_, &watch_,
       [this](Stamp stamp, const Pose2& pose) { OnOdometry(stamp, pose); });
-  if (options_.node.use_camera) SubscribeCamera(node);
+  if (options_.node.use_camera) SubscribeCamera(node, private_node.getNamespace());
   scan_subscriber_ = node.subscribe("scan", kScanQueue, &ScanImageFusionNode::OnScan, this,
                                     ros::TransportHints().tcpNoDelay());
   watch_.Expect(scan_subscriber_, "sensor_msgs/LaserScan", false);
-  watch_.AddValue("scans with stamps that do not advance",
-                  [this] { return std::to_string(stale_scans_); });
   watch_.AddValue("scans dropped while waiting for encoders",
                   [this] { return std::to_string(gate_.dropped()); });
   // Scans that wait for the encoders are looked at again while nothing arrives.
@@ -74,7 +76,7 @@ ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle p
                                         [this](const ros::WallTimerEvent&) { ReleaseScans(); });
 }
 
-void ScanImageFusionNode::SubscribeCamera(ros::NodeHandle node) {
+void ScanImageFusionNode::SubscribeCamera(ros::NodeHandle node, const std::string& name) {
   camera_info_subscriber_ =
       node.subscribe("camera_info", kImageQueue, &ScanImageFusionNode::OnCameraInfo, this);
   watch_.Expect(camera_info_subscriber_, "sensor_msgs/CameraInfo", true);
@@ -91,7 +93,7 @@ void ScanImageFusionNode::SubscribeCamera(ros::NodeHandle node) {
         "image_raw", kImageQueue, &ScanImageFusionNode::OnImage, this,
         image_transport::TransportHints(options_.node.image_transport, hints));
   } catch (const image_transport::TransportLoadException& error) {
-    throw ParameterError("scan_image_fusion/image_transport: " + std::string(error.what()));
+    throw ParameterError(name + "/image_transport: " + error.what());
   }
   watch_.Expect(
       image_subscriber_.getTopic(), [this] { return image_subscriber_.getNumPublishers(); },
@@ -111,8 +113,7 @@ void ScanImageFusionNode::OnScan(const sensor_msgs::LaserScanConstPtr& message) 
     const LaserScan scan = ToLaserScan(*message);
     switch (time_guard_.Check(scan.stamp)) {
       case TimeGuard::Verdict::kStale:
-        ++stale_scans_;
-        return;
+        throw std::invalid_argument("its stamp is not later than that of the scan before");
       case TimeGuard::Verdict::kRestarts:
         StartOver();
         break;
@@ -120,7 +121,7 @@ void ScanImageFusionNode::OnScan(const sensor_msgs::LaserScanConstPtr& message) 
         break;
     }
     if (!laser_mount_.Update(message->header.frame_id)) return;
-    if (laser_mount_.changed()) fusion_.SetLaser(LaserMount::From(laser_mount_.base_from_sensor()));
+    fusion_.SetLaser(LaserMount::From(laser_mount_.base_from_sensor()));
     gate_.Push(scan, scan.stamp, SteadyNow());
     ReleaseScans();
   } catch (const std::invalid_argument& error) {
@@ -138,25 +139,33 @@ void ScanImageFusionNode::OnCameraInfo(const sensor_msgs::CameraInfoConstPtr& me
   const std::string topic = camera_info_subscriber_.getTopic();
   watch_.Arrived(topic);
   try {
-    const bool known = camera_mount_.Update(message->header.frame_id);
+    if (!camera_mount_.Update(message->header.frame_id)) {
+      LoseCamera();
+      return;
+    }
     sensor_msgs::CameraInfo calibration = *message;
     calibration.header = std_msgs::Header();
     std::ostringstream text;
     text << calibration;
-    if (!known || (!camera_mount_.changed() && text.str() == camera_info_text_)) return;
+    if (!camera_mount_.changed() && text.str() == camera_info_text_) return;
     fusion_.SetCamera(ToCameraIntrinsics(*message), camera_mount_.base_from_sensor());
     camera_info_text_ = text.str();
     watch_.SetProblem(topic, "");
   } catch (const std::invalid_argument& error) {
     watch_.SetProblem(topic, std::string(error.what()) + "; going on without the camera");
+    LoseCamera();
   }
+}
+
+void ScanImageFusionNode::LoseCamera() {
+  fusion_.RemoveCamera();
+  camera_info_text_.clear();
 }
 
 void ScanImageFusionNode::OnImage(const sensor_msgs::ImageConstPtr& message) {
   watch_.Arrived(image_subscriber_.getTopic());
-  if (!fusion_.has_camera()) return;
   try {
-    AddImage({ToStamp(message->header.stamp), ToGrey(*message), ToStdPointer(message)});
+    fusion_.AddImage({ToStamp(message->header.stamp), ToGrey(*message), ToStdPointer(message)});
   } catch (const std::invalid_argument& error) {
     watch_.Refuse(image_subscriber_.getTopic(), error.what());
   }
@@ -164,15 +173,12 @@ void ScanImageFusionNode::OnImage(const sensor_msgs::ImageConstPtr& message) {
 
 void ScanImageFusionNode::OnCompressedImage(const sensor_msgs::CompressedImageConstPtr& message) {
   watch_.Arrived(compressed_subscriber_.getTopic());
-  if (!fusion_.has_camera()) return;
   try {
-    AddImage({ToStamp(message->header.stamp), ToGrey(*message), nullptr});
+    fusion_.AddImage({ToStamp(message->header.stamp), ToGrey(*message), nullptr});
   } catch (const std::invalid_argument& error) {
     watch_.Refuse(compressed_subscriber_.getTopic(), error.what());
   }
 }
-
-void ScanImageFusionNode::AddImage(const CameraImage& image) { fusion_.AddImage(image); }
 
 void ScanImageFusionNode::ReleaseScans() {
   while (const auto scan = gate_.Pop(SteadyNow(), fusion_.odometry())) Publish(fusion_.Fuse(*scan));

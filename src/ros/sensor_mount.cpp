@@ -30,6 +30,8 @@ SensorMount::SensorMount(std::string kind, const SensorPose& pose, bool optical,
 
 bool SensorMount::Update(const std::string& sensor_frame) {
   changed_ = false;
+  if (sensor_frame != sensor_frame_) base_from_sensor_.reset();
+  sensor_frame_ = sensor_frame;
   const ros::WallTime now = ros::WallTime::now();
   if (base_from_sensor_ && (now - looked_up_).toSec() < kLookUpPeriod) return true;
   looked_up_ = now;

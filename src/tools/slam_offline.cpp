@@ -87,22 +87,6 @@ class StageTimes {
   double cpu_ms_ = 0.0;
 };
 
-std::string ModeName(MatchMode mode) {
-  switch (mode) {
-    case MatchMode::kFull:
-      return "full";
-    case MatchMode::kNoCamera:
-      return "no_camera";
-    case MatchMode::kNoEncoders:
-      return "no_encoders";
-    case MatchMode::kLaserOnly:
-      return "laser_only";
-    case MatchMode::kCoasting:
-      return "coasting";
-  }
-  return "unknown";
-}
-
 /// What is kept of a run.
 struct Run {
   Trajectory online;
@@ -116,8 +100,10 @@ struct Run {
 
   void Add(const PipelineResult& result) {
     if (!online.empty()) {
-      seconds_in_mode[ModeName(result.match.mode)] +=
-          Seconds(result.pose.stamp - online.back().stamp);
+      constexpr double kLaserGap = 0.5;  // longer without a scan: the pose rested on the rest [s]
+      const double seconds = Seconds(result.pose.stamp - online.back().stamp);
+      const MatchMode mode = seconds > kLaserGap ? MatchMode::kCoasting : result.match.mode;
+      seconds_in_mode[ModeName(mode)] += seconds;
     }
     online.push_back({result.pose.stamp, result.pose.map_from_base});
     if (result.match.odom_from_base) {

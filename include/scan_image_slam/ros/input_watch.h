@@ -15,8 +15,8 @@ namespace scan_image_slam {
 /// seconds until it is there, and in /diagnostics.
 class InputWatch {
  public:
-  /// `name` of the node, for /diagnostics.
-  InputWatch(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name);
+  /// /diagnostics names the node after `private_node`, with its namespace.
+  InputWatch(ros::NodeHandle node, ros::NodeHandle private_node);
 
   /// A topic that should come. `optional`: the node works without it, with less.
   void Expect(const ros::Subscriber& subscriber, const std::string& type, bool optional);
@@ -29,7 +29,7 @@ class InputWatch {
   /// A condition that keeps the node from its work; an empty text means that it is over.
   void SetProblem(const std::string& key, const std::string& text);
 
-  /// A message that could not be used: counted, and told at most every five seconds.
+  /// A message that could not be used: counted, and each reason told at most every five seconds.
   void Refuse(const std::string& topic, const std::string& reason);
 
   /// More to be told in /diagnostics.
@@ -50,7 +50,11 @@ class InputWatch {
   diagnostic_updater::Updater updater_;
   std::map<std::string, Topic> topics_;
   std::map<std::string, std::string> problems_;
-  std::map<std::string, int> refused_;
+  struct Refusal {
+    int messages = 0;
+    ros::WallTime told;
+  };
+  std::map<std::string, Refusal> refused_;  ///< by topic and reason
   std::map<std::string, std::function<std::string()>> values_;
   ros::WallTime begin_;
   ros::WallTimer tell_timer_;

@@ -33,13 +33,13 @@ class ScanImageFusionNode {
     ScanImageFusionNodeOptions node;
   };
   static Options ReadOptions(const ros::NodeHandle& private_node);
-  void SubscribeCamera(ros::NodeHandle node);
+  void SubscribeCamera(ros::NodeHandle node, const std::string& name);
   void OnScan(const sensor_msgs::LaserScanConstPtr& message);
   void OnCameraInfo(const sensor_msgs::CameraInfoConstPtr& message);
+  void LoseCamera();
   void OnImage(const sensor_msgs::ImageConstPtr& message);
   void OnCompressedImage(const sensor_msgs::CompressedImageConstPtr& message);
   void OnOdometry(Stamp stamp, const Pose2& odom_from_base);
-  void AddImage(const CameraImage& image);
   void ReleaseScans();
   void Publish(const FusedModel& model);
   void PublishPicture(const FusedModel& model);
@@ -56,7 +56,6 @@ class ScanImageFusionNode {
   SensorMount camera_mount_;
   TimeGuard time_guard_;
   std::string camera_info_text_;  ///< the intrinsics in use, to notice others
-  int stale_scans_ = 0;
 
   ros::Publisher model_publisher_;
   ros::Publisher edges_publisher_;

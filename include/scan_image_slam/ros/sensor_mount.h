@@ -32,6 +32,7 @@ class SensorMount {
   std::string base_frame_;
   const tf2_ros::Buffer* tf_;
   InputWatch* watch_;
+  std::string sensor_frame_;  ///< of the last message
   std::optional<Eigen::Isometry3d> base_from_sensor_;
   ros::WallTime looked_up_;
   bool changed_ = false;

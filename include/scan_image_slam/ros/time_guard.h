@@ -18,28 +18,26 @@ class TimeGuard {
   };
   Verdict Check(Stamp stamp) {
     const ros::Time now = ros::Time::now();
-    const bool clock_went_back = ros::Time::isSimTime() && now < last_now_;
+    if (ros::Time::isSimTime() && now < last_now_) clock_went_back_ = true;
     last_now_ = now;
-    if (clock_went_back) {
-      last_stamp_ = stamp;
-      return Verdict::kRestarts;
-    }
-    if (last_stamp_ && stamp <= *last_stamp_) {
-      // A clock that was set back makes every message stale from then on.
-      constexpr int kPatience = 40;
-      if (++stale_in_a_row_ < kPatience) return Verdict::kStale;
-      stale_in_a_row_ = 0;
-      last_stamp_ = stamp;
-      return Verdict::kRestarts;
-    }
+    // After the clock has gone back, what was sent before is still on its way: it is ahead of time.
+    const bool ahead = stamp > static_cast<Stamp>(now.toNSec()) + kMaxAhead;
+    const bool restarts = clock_went_back_ && !ahead;
+    const bool stale = clock_went_back_ ? ahead : last_stamp_ && stamp <= *last_stamp_;
+    // A clock that was set back makes every message stale from then on.
+    if (stale && ++stale_in_a_row_ < kPatience) return Verdict::kStale;
+    clock_went_back_ = false;
     stale_in_a_row_ = 0;
     last_stamp_ = stamp;
-    return Verdict::kAdvances;
+    return restarts || stale ? Verdict::kRestarts : Verdict::kAdvances;
   }
 
  private:
+  static constexpr int kPatience = 40;             ///< messages
+  static constexpr Stamp kMaxAhead = 200'000'000;  ///< clocks of drivers may be a little fast [ns]
   ros::Time last_now_;
   std::optional<Stamp> last_stamp_;
+  bool clock_went_back_ = false;  ///< and nothing has begun anew yet
   int stale_in_a_row_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace scan_image_slam {
 namespace {
@@ -76,13 +77,18 @@ void ScanImageFusion::SetCamera(const CameraIntrinsics& intrinsics,
   bearing_image_ = std::make_unique<BearingImage>(*camera, base_from_camera);
   camera_ = std::move(camera);
   camera_from_base_ = base_from_camera.inverse();
+  if (pending_image_ && !Fits(*pending_image_)) pending_image_.reset();
+}
+
+void ScanImageFusion::RemoveCamera() {
+  bearing_image_.reset();
+  camera_.reset();
   pending_image_.reset();
 }
 
 void ScanImageFusion::AddImage(const CameraImage& image) {
-  if (!has_camera()) return;
-  const CameraIntrinsics& intrinsics = camera_->intrinsics();
-  if (image.grey.cols != intrinsics.width || image.grey.rows != intrinsics.height) {
+  if (has_camera() && !Fits(image)) {
+    const CameraIntrinsics& intrinsics = camera_->intrinsics();
     throw std::invalid_argument("the image has " + std::to_string(image.grey.cols) + " x " +
                                 std::to_string(image.grey.rows) + " pixels, but camera_info says " +
                                 std::to_string(intrinsics.width) + " x " +
@@ -90,6 +96,11 @@ void ScanImageFusion::AddImage(const CameraImage& image) {
   }
   pending_image_ = image;
   pending_image_->stamp += FromSeconds(options_.camera_time_offset);
+}
+
+bool ScanImageFusion::Fits(const CameraImage& image) const {
+  const CameraIntrinsics& intrinsics = camera_->intrinsics();
+  return image.grey.cols == intrinsics.width && image.grey.rows == intrinsics.height;
 }
 
 void ScanImageFusion::Reset() {
@@ -100,9 +111,8 @@ void ScanImageFusion::Reset() {
 
 FusedModel ScanImageFusion::Fuse(const LaserScan& scan) {
   FusedModel model = MakeScanModel(scan, laser_, SweepVelocity(scan), options_.scan);
-  if (pending_image_) {
-    const CameraImage image = *pending_image_;
-    pending_image_.reset();
+  if (pending_image_ && has_camera()) {
+    const CameraImage image = *std::exchange(pending_image_, std::nullopt);
     if (std::abs(Seconds(image.stamp - scan.stamp)) <= options_.max_image_age) {
       FuseImage(image, &model);
     }

@@ -8,7 +8,11 @@
 namespace scan_image_slam {
 namespace {
 
+/// Images come less often than scans; so long after one its edges still count as seen [s].
+constexpr double kImageLife = 0.2;
+
 MatchStatus StatusOf(const MatchOutcome& outcome) {
+  if (outcome.matched == 0) return MatchStatus::kTooFewPoints;
   if (outcome.on_window_edge) return MatchStatus::kOnWindowEdge;
   if (outcome.too_few_points) return MatchStatus::kTooFewPoints;
   return outcome.degenerate ? MatchStatus::kDegenerate : MatchStatus::kMatched;
@@ -31,7 +35,6 @@ MatchedMotion BoundedIcp::Match(const FusedModel& model) {
   MatchedMotion match;
   match.stamp = model.stamp;
   match.odom_from_base = prediction.odom_from_base;
-  match.mode = prediction.odom_from_base ? MatchMode::kNoCamera : MatchMode::kLaserOnly;
   match.window = prediction.window;
   if (!last_stamp_) {
     match.status = MatchStatus::kFirst;
@@ -63,10 +66,19 @@ MatchedMotion BoundedIcp::Match(const FusedModel& model) {
     start_from_base_ = start_from_base_ * motion;
     predictor_.Update(model.stamp, motion);
   }
+  if (model.has_image) last_image_stamp_ = model.stamp;
+  match.mode = ModeOf(match);
   match.covariance = covariance_;
   last_stamp_ = model.stamp;
   ChooseReference(&match);
   return match;
+}
+
+MatchMode BoundedIcp::ModeOf(const MatchedMotion& match) const {
+  if (match.status == MatchStatus::kTooFewPoints) return MatchMode::kCoasting;
+  const bool images = last_image_stamp_ && Seconds(match.stamp - *last_image_stamp_) <= kImageLife;
+  if (match.odom_from_base) return images ? MatchMode::kFull : MatchMode::kNoCamera;
+  return images ? MatchMode::kNoEncoders : MatchMode::kLaserOnly;
 }
 
 /// Motions are told from a scan not far back, so that they stay small and mean what was measured.

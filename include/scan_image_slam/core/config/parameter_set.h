@@ -66,6 +66,8 @@ class ParameterSet {
   void Set(const std::map<std::string, ParameterValue>& values);
 
   const std::string& node() const { return node_; }
+  /// For a node that runs under another name.
+  void set_node(const std::string& node) { node_ = node; }
   const std::vector<Parameter>& parameters() const { return parameters_; }
 
  private:

@@ -58,11 +58,15 @@ class ScanImageFusion {
 
   void SetLaser(const LaserMount& mount) { laser_ = mount; }
   /// Throws std::invalid_argument if the camera can't be used; see CameraModel and BearingImage.
+  /// An image that waits is dropped if it is of another size.
   void SetCamera(const CameraIntrinsics& intrinsics, const Eigen::Isometry3d& base_from_camera);
+  /// From now on there is no camera.
+  void RemoveCamera();
   bool has_camera() const { return bearing_image_ != nullptr; }
 
-  /// Hands over the newest image; the next scan near it in time uses it, once. Throws
-  /// std::invalid_argument if its size is not that of the camera's intrinsics.
+  /// Hands over the newest image; the next scan near it in time uses it, once. It may come before
+  /// the camera, whose messages go another way: then it waits for it. Throws std::invalid_argument
+  /// if its size is not that of the camera's intrinsics.
   void AddImage(const CameraImage& image);
 
   /// Makes the model of a scan.
@@ -79,6 +83,7 @@ class ScanImageFusion {
   void Reset();
 
  private:
+  bool Fits(const CameraImage& image) const;
   Velocity2 SweepVelocity(const LaserScan& scan) const;
   void FuseImage(const CameraImage& image, FusedModel* model);
   Pose2 ScanFromImage(Stamp scan, Stamp image) const;

@@ -45,12 +45,14 @@ class BoundedIcp {
 
  private:
   void ChooseReference(MatchedMotion* match);
+  MatchMode ModeOf(const MatchedMotion& match) const;
 
   BoundedIcpOptions options_;
   MotionPredictor predictor_;
   LocalMapMatcher local_map_matcher_;
   FrameMatcher frame_matcher_;
   std::optional<Stamp> last_stamp_;
+  std::optional<Stamp> last_image_stamp_;  ///< of the last model that an image was fused into
   Pose2 start_from_base_;
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   Stamp start_stamp_ = 0;

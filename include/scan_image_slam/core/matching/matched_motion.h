@@ -19,6 +19,23 @@ enum class MatchMode {
   kCoasting,    ///< no laser: encoders alone, or constant velocity
 };
 
+/// As in the report of a run and in diagnostics.
+inline const char* ModeName(MatchMode mode) {
+  switch (mode) {
+    case MatchMode::kFull:
+      return "full";
+    case MatchMode::kNoCamera:
+      return "no_camera";
+    case MatchMode::kNoEncoders:
+      return "no_encoders";
+    case MatchMode::kLaserOnly:
+      return "laser_only";
+    case MatchMode::kCoasting:
+      return "coasting";
+  }
+  return "unknown";
+}
+
 /// What became of one match.
 enum class MatchStatus {
   kFirst,         ///< nothing to match with yet

@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+"""What a node lacks at the start it names within five seconds, and again until it is there."""
+
+import signal
+import subprocess
+import unittest
+
+import rospy
+import rostest
+from live_support import (START, Console, Recorder, make_odometry, program, publisher, room_scan,
+                          static_transforms, transform, wait_for, wait_subscribed)
+from nav_msgs.msg import Odometry
+from scan_image_slam.msg import IcpModel
+from sensor_msgs.msg import LaserScan
+
+
+class MissingInputsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('missing_inputs_test')
+        cls.console = Console()
+        cls.nodes = []
+
+    def start(self, name, *arguments):
+        """Starts a node, and gives the moment from which on it was there [s]."""
+        self.nodes.append(subprocess.Popen([program(name), *arguments]))
+        node = '/' + name
+        for argument in arguments:
+            if argument.startswith('__name:='):
+                node = '/' + argument[len('__name:='):]
+        # It is there when it has told the master what it publishes.
+        wait_for(lambda: any(node in publishers for _, publishers in
+                             rospy.get_master().getSystemState()[2][0]), 'the node ' + node)
+        return rospy.get_time()
+
+    def tearDown(self):
+        for node in self.nodes:
+            node.send_signal(signal.SIGINT)
+        for node in self.nodes:
+            self.assertEqual(node.wait(30), 0)
+        self.nodes.clear()
+
+    def expect_named(self, begin, *words, node):
+        first, second = self.console.said(*words, node=node, count=2)[:2]
+        self.assertLess(first.header.stamp.to_sec() - begin, 5.0)
+        self.assertLess((second.header.stamp - first.header.stamp).to_sec(), 6.0)
+
+    def test_topics(self):
+        begin = self.start('scan_image_fusion')
+        self.expect_named(begin, 'waiting for topic /scan', 'sensor_msgs/LaserScan', 'nobody',
+                          node='/scan_image_fusion')
+        self.console.said('waiting for topic /odom', '(optional)', node='/scan_image_fusion')
+        self.console.said('waiting for topic /image_raw', '(optional)', node='/scan_image_fusion')
+        self.console.said('waiting for topic /camera_info', '(optional)',
+                          node='/scan_image_fusion')
+
+    def test_remapped_topics_are_named_as_they_are(self):
+        begin = self.start('scan_image_fusion', '__name:=front_fusion', 'scan:=front/scan')
+        self.expect_named(begin, 'waiting for topic /front/scan', node='/front_fusion')
+
+    def test_the_topic_of_bounded_icp(self):
+        begin = self.start('bounded_icp')
+        self.expect_named(begin, 'waiting for topic /icp_model', 'nobody', node='/bounded_icp')
+
+    def test_the_topic_of_mapper(self):
+        begin = self.start('mapper')
+        self.expect_named(begin, 'waiting for topic /scan_match', 'nobody', node='/mapper')
+
+    def test_the_clock_of_a_recording(self):
+        rospy.set_param('/use_sim_time', True)
+        try:
+            self.start('bounded_icp', '__name:=clockless')
+            self.console.said('use_sim_time', '/clock', node='/clockless', count=2)
+        finally:
+            rospy.delete_param('/use_sim_time')
+
+    def test_a_transform_until_it_is_there(self):
+        self.start('scan_image_fusion', '__name:=blind_fusion', 'icp_model:=blind/icp_model',
+                   'scan:=blind/scan', 'odom:=blind/odom')
+        scan, odom = publisher('blind/scan', LaserScan), publisher('blind/odom', Odometry)
+        models = Recorder('blind/icp_model', IcpModel).wait_connected()
+        wait_subscribed(scan, odom)
+        time = [START]
+
+        def drive():
+            time[0] += 0.05
+            odom.publish(make_odometry(time[0]))
+            scan.publish(room_scan(time[0]))
+            rospy.sleep(0.05)
+
+        begin = rospy.get_time()
+
+        def named():
+            drive()
+            return [m for m in self.console.messages if m.name == '/blind_fusion' and
+                    'laser transform: no transform base_link -> laser' in m.msg]
+        wait_for(lambda: len(named()) >= 3, 'the transform to be named again')
+        self.assertLess(named()[0].header.stamp.to_sec() - begin, 5.0)
+        self.assertFalse(models.messages, 'a pose of the laser was invented')
+        static = static_transforms(transform('base_link', 'laser', 0.25, 0, 0.3))
+        wait_for(lambda: (drive(), models.messages)[1], 'models')
+        self.assertAlmostEqual(models.messages[0].laser_x, 0.25)
+        self.console.said('laser transform: all right now', node='/blind_fusion')
+        named_before = len(named())
+        end = rospy.get_time() + 6.0  # a whole period of naming
+        wait_for(lambda: (drive(), rospy.get_time() > end)[1], 'the time to pass')
+        self.assertEqual(len(named()), named_before, 'it is named although it is there')
+        static.unregister()
+
+
+if __name__ == '__main__':
+    rostest.rosrun('scan_image_slam', 'missing_inputs', MissingInputsTest)

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""A node with a wrong parameter ends at once, with an exit code and the parameter's full name."""
+
+import signal
+import subprocess
+import unittest
+
+import rospy
+import rostest
+from live_support import program, wait_for
+
+NODES = ('scan_image_fusion', 'bounded_icp', 'mapper')
+
+
+class WrongParametersTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('wrong_parameters_test')
+
+    def start(self, node, parameters, name=None, *arguments):
+        """Starts a node with private parameters."""
+        name = name or '/' + node
+        for key in rospy.get_param_names():
+            if key.startswith(name + '/'):
+                rospy.delete_param(key)
+        for key, value in parameters.items():
+            rospy.set_param(f'{name}/{key}', value)
+        namespace, _, base = name.rpartition('/')
+        return subprocess.Popen([program(node), '__name:=' + base, '__ns:=' + (namespace or '/'),
+                                 *arguments],
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    def expect_end(self, node, parameters, *words, name=None):
+        process = self.start(node, parameters, name)
+        output, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1, output)
+        for word in words:
+            self.assertIn(word, output)
+
+    def expect_running(self, node, parameters, *arguments):
+        """The node comes up and ends in order when it is told to."""
+        process = self.start(node, parameters, None, *arguments)
+
+        def is_up():
+            self.assertIsNone(process.poll(), 'the node has ended')
+            return any(f'/{node}/' in service or f'/{node}' in nodes for service, nodes in
+                       rospy.get_master().getSystemState()[2][0])
+        try:
+            wait_for(is_up, 'the node ' + node)
+        finally:
+            process.send_signal(signal.SIGINT)
+            output, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0, output)
+
+    def test_unknown(self):
+        self.expect_end('scan_image_fusion', {'min_rnage': 0.2},
+                        '/scan_image_fusion/min_rnage: unknown parameter', 'did you mean min_range')
+        self.expect_end('bounded_icp', {'window/min_distnace': 0.2},
+                        '/bounded_icp/window/min_distnace: unknown', 'window/min_distance')
+        self.expect_end('mapper', {'delta': 0.2}, '/mapper/delta: unknown parameter')
+
+    def test_mistyped(self):
+        self.expect_end('scan_image_fusion', {'use_camera': 'yes please'},
+                        '/scan_image_fusion/use_camera', 'of type string, expected is bool')
+        self.expect_end('bounded_icp', {'local_map/insert_first': 0.5},
+                        '/bounded_icp/local_map/insert_first', 'of type double, expected is int')
+        self.expect_end('mapper', {'resolution': [0.05, 0.05]},
+                        '/mapper/resolution: a single value is expected')
+
+    def test_out_of_range(self):
+        self.expect_end('scan_image_fusion', {'max_image_age': -1.0},
+                        '/scan_image_fusion/max_image_age: -1.0 is out of range')
+        self.expect_end('bounded_icp', {'reference': 'next_frame'},
+                        '/bounded_icp/reference: "next_frame" is not one of', 'previous_frame')
+        self.expect_end('mapper', {'resolution': 0.0}, '/mapper/resolution: 0.0 is out of range')
+
+    def test_parameters_that_do_not_fit_each_other(self):
+        self.expect_end('scan_image_fusion', {'min_range': 2.0, 'max_range': 1.0},
+                        '/scan_image_fusion/max_range must be greater than min_range')
+
+    def test_the_full_name_has_the_namespace(self):
+        self.expect_end('mapper', {'reslution': 0.1}, '/robot1/cartographer/reslution: unknown',
+                        name='/robot1/cartographer')
+
+    def test_an_unknown_transport_of_images(self):
+        self.expect_end('scan_image_fusion', {'image_transport': 'pigeon'},
+                        '/scan_image_fusion/image_transport', 'pigeon')
+
+    def test_what_libraries_keep_below_the_name_of_a_node_is_left_alone(self):
+        self.expect_running('scan_image_fusion',
+                            {'mode': 'unchanged', 'post_processing_level': 0,
+                             'diagnostic_period': 2.0, 'image/compressed/jpeg_quality': 80,
+                             'image/compressed/format': 'jpeg', 'image/theora/quality': 31,
+                             'image/disable_pub_plugins': ['image_transport/theora']},
+                            'fusion/image:=/scan_image_fusion/image')
+
+    def test_nodes_run_with_no_parameters_at_all(self):
+        for node in NODES:
+            with self.subTest(node):
+                self.expect_running(node, {})
+
+    def test_the_simulator(self):
+        self.expect_end('robot_simulator', {'world': 'moon'}, 'moon')
+        self.expect_end('robot_simulator', {'path': 'home'}, 'home')
+
+
+if __name__ == '__main__':
+    rostest.rosrun('scan_image_slam', 'wrong_parameters', WrongParametersTest)
