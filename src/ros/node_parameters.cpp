@@ -1,5 +1,6 @@
 #include "scan_image_slam/ros/node_parameters.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,10 +13,9 @@ namespace {
 
 /// Names below ours that belong to the libraries we use.
 bool BelongsToLibrary(const std::string& name) {
-  for (const char* prefix : {"image_raw/", "fusion/image/", "diagnostic_period"}) {
-    if (name.rfind(prefix, 0) == 0) return true;
-  }
-  return false;
+  const auto prefixes = {"image_raw/", "fusion/image/", "diagnostic_period"};
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const char* prefix) { return name.rfind(prefix, 0) == 0; });
 }
 
 ParameterValue ToValue(const std::string& full_name, XmlRpc::XmlRpcValue& value) {
