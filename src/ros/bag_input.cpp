@@ -90,7 +90,7 @@ std::string BagInput::Choose(const std::string& wanted, const std::string& usual
                              const std::string& type, const std::string& option) const {
   const std::vector<std::string> candidates = TopicsOfType(type);
   if (!wanted.empty()) {
-    const std::string topic = WithSlash(wanted);
+    std::string topic = WithSlash(wanted);
     if (std::find(candidates.begin(), candidates.end(), topic) != candidates.end()) return topic;
     throw BagError(path_ + ": there is no topic " + topic + " of type " + type + " (" + option +
                    "); topics of this type: " + Join(candidates));
@@ -181,6 +181,7 @@ void BagInput::ChooseBaseFrame() {
       LookUpSensor(*mounts_, base_frame_, laser_frame).found) {
     return;
   }
+  if (base_frame_ != OdometryInput{}.base_frame) return;  // what was asked for is not guessed
   const std::string driven = odom_topic_.empty() ? "" : FirstFrame(odom_topic_);
   if (!driven.empty() && LookUpSensor(*mounts_, driven, laser_frame).found) {
     notes_.push_back("base frame: " + driven + " (of " + odom_topic_ + "), as there is no " +

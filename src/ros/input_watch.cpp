@@ -111,7 +111,7 @@ void InputWatch::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
                         "waiting for " + DescribeTopic(name, topic));
   }
   for (const auto& [key, text] : problems_) {
-    status.mergeSummary(DiagnosticStatus::WARN, key + ": " + text);
+    status.mergeSummaryf(DiagnosticStatus::WARN, "%s: %s", key.c_str(), text.c_str());
   }
   for (const auto& [reason, refusal] : refused_) {
     status.add("refused: " + reason, refusal.messages);

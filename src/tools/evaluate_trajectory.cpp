@@ -55,19 +55,14 @@ Alignment ParseAlignment(const std::string& text) {
   return Alignment::kFirst;
 }
 
-/// The script beside the executable (devel and install space), else in the source tree.
+/// The script beside the executable, in the devel space as in the install space.
 std::string FindPlotScript() {
   namespace fs = std::filesystem;
   std::error_code ignored;
-  std::vector<fs::path> folders{fs::read_symlink("/proc/self/exe", ignored).parent_path()};
-#ifdef SCAN_IMAGE_SLAM_SCRIPT_DIR
-  folders.emplace_back(SCAN_IMAGE_SLAM_SCRIPT_DIR);
-#endif
-  for (const fs::path& folder : folders) {
-    if (fs::exists(folder / kPlotScript, ignored)) return (folder / kPlotScript).string();
-  }
+  const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  if (fs::exists(folder / kPlotScript, ignored)) return (folder / kPlotScript).string();
   throw std::runtime_error(std::string("cannot plot: ") + kPlotScript + " is not in " +
-                           folders.front().string());
+                           folder.string());
 }
 
 /// Runs a program, its output on stderr because stdout holds the result; returns its exit status.

@@ -5,8 +5,16 @@
 
 #include <iostream>
 
-int main() {
+#include <CLI/CLI.hpp>
+
+int main(int argc, char** argv) {
+  CLI::App app("Prints every parameter of the nodes with its default, unit and range, as yaml.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 1;
+  }
   scan_image_slam::SlamOptions options;
-  std::cout << scan_image_slam::WriteConfig(options.Parameters());
-  return 0;
+  std::cout << scan_image_slam::WriteConfig(options.Parameters()) << std::flush;
+  return std::cout ? 0 : 2;
 }

@@ -19,7 +19,7 @@ void ProgressLine::Show(double share) {
             << (terminal_ ? "" : "\n") << std::flush;
 }
 
-void ProgressLine::Finish() {
+void ProgressLine::Finish() const {
   if (terminal_ && shown_percent_ >= 0) std::cerr << "\n";
 }
 

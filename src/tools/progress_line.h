@@ -11,7 +11,7 @@ class ProgressLine {
   explicit ProgressLine(std::string name);
   /// `share` of the work that is done, 0 to 1.
   void Show(double share);
-  void Finish();
+  void Finish() const;
 
  private:
   std::string name_;

@@ -39,7 +39,9 @@ void Declare(CLI::App& app, Arguments& a) {
   app.add_option("--world", a.world, "world file, or name of a shipped one, e.g. corridor")
       ->required();
   app.add_option("--out", a.out, "bag to write; the truth goes beside it as .gt.tum")->required();
-  app.add_option("--seed", a.options.seed, "of all random numbers")->capture_default_str();
+  app.add_option("--seed", a.options.seed, "of all random numbers")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--duration", a.duration, "length [s]; without it, until the path is driven")
       ->check(CLI::Range(0.1, 1e5));
   app.add_option("--path", a.options.path, "path of the world file to drive; default the first");

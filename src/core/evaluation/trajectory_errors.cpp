@@ -49,6 +49,7 @@ std::vector<double> Travelled(const std::vector<PosePair>& pairs) {
 /// Time from the first pair to each pair [s].
 std::vector<double> Elapsed(const std::vector<PosePair>& pairs) {
   std::vector<double> elapsed;
+  elapsed.reserve(pairs.size());
   for (const PosePair& pair : pairs) elapsed.push_back(Seconds(pair.stamp - pairs.front().stamp));
   return elapsed;
 }

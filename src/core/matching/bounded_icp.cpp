@@ -12,9 +12,8 @@ namespace {
 constexpr double kImageLife = 0.2;
 
 MatchStatus StatusOf(const MatchOutcome& outcome) {
-  if (outcome.matched == 0) return MatchStatus::kTooFewPoints;
-  if (outcome.on_window_edge) return MatchStatus::kOnWindowEdge;
   if (outcome.too_few_points) return MatchStatus::kTooFewPoints;
+  if (outcome.on_window_edge) return MatchStatus::kOnWindowEdge;
   return outcome.degenerate ? MatchStatus::kDegenerate : MatchStatus::kMatched;
 }
 

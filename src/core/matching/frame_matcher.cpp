@@ -156,6 +156,7 @@ MatchOutcome FrameMatcher::Match(const FusedModel& model, const MotionPrediction
   outcome.points = pair.size();
   outcome.matched = pair.Matched(found.deviation, options_.max_distance);
   outcome.on_window_edge = found.on_window_edge;
+  outcome.too_few_points = outcome.matched == 0;
   return outcome;
 }
 

@@ -117,7 +117,8 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
   outcome.degenerate_direction = refined.degenerate_direction;
   way_ += (prediction.motion * FromArcCoordinates(outcome.deviation)).translation().norm();
   ForgetOldSurroundings();
-  outcome.too_few_points = refined.matched < options_.min_matched_fraction * outcome.points;
+  outcome.too_few_points =
+      refined.matched == 0 || refined.matched < options_.min_matched_fraction * outcome.points;
   unmatched_ = outcome.too_few_points ? unmatched_ + 1 : 0;
   const bool unknown_surroundings = local_map_.elements().empty() || unmatched_ > kMaxUnmatched;
   if (!outcome.on_window_edge && (!outcome.too_few_points || unknown_surroundings)) {

@@ -2,13 +2,15 @@
 
 #include <cmath>
 
+#include <opencv2/core/fast_math.hpp>
+
 namespace scan_image_slam {
 namespace {
 
 constexpr double kFarthestPlane = 200.0;  // floor and ceiling beyond are drawn as if here [m]
 
 std::uint32_t Weight256(double part) {
-  return static_cast<std::uint32_t>(256.0 * std::clamp(part, 0.0, 1.0) + 0.5);
+  return static_cast<std::uint32_t>(cvRound(256.0 * std::clamp(part, 0.0, 1.0)));
 }
 
 /// Texture coordinates of the floor have 8 bits of fraction.
@@ -49,10 +51,8 @@ bool Uses(const Face& face, Material material) {
 
 bool Uses(const World& world, Material material) {
   if (Uses(world.floor, material) || Uses(world.ceiling, material)) return true;
-  for (const Face& face : world.faces) {
-    if (Uses(face, material)) return true;
-  }
-  return false;
+  return std::any_of(world.faces.begin(), world.faces.end(),
+                     [material](const Face& face) { return Uses(face, material); });
 }
 
 }  // namespace
@@ -281,7 +281,7 @@ void ColumnPainter<Pixel>::PaintPicture(const Patch& patch, const RowSpan& rows,
   const double per_metre = level.height / height;
   const double v0 = (view_.height - rectangle.bottom + patch.distance * SlopeOf(0.5)) * per_metre;
   const double dv = row_height * per_metre;
-  const auto light = static_cast<std::uint32_t>(256.0 * std::min(patch.light, 1e4) + 0.5);
+  const auto light = static_cast<std::uint32_t>(cvRound(256.0 * std::min(patch.light, 1e4)));
   FillSpan(column, rows, coverage, [&](int row) {
     const int v = std::clamp(static_cast<int>(v0 + row * dv), 0, level.height - 1);
     const Pixel colour = Ops::Sum(columns.data(), weights.data(), last - first + 1, v);

@@ -113,7 +113,7 @@ const NamedFace& FindFace(YamlSection& section, const NamedFaces& names) {
 
 /// `at`, a number or a list, each `repeat: {count, step}` times along the wall.
 std::vector<double> ReadPositions(YamlSection& section) {
-  const std::vector<double> once = section.NumberOrNumbers("at", 0.0, kMaxLength);
+  std::vector<double> once = section.NumberOrNumbers("at", 0.0, kMaxLength);
   if (!section.Has("repeat")) return once;
   YamlSection repeat = section.Child("repeat");
   const int count = repeat.Integer("count", 1, 10000);

@@ -32,7 +32,7 @@ std::vector<Placement> ReadPlacements(YamlSection& section) {
 }
 
 Eigen::Vector2d ReadSize(YamlSection& section, const Eigen::Vector2d& fallback) {
-  const Eigen::Vector2d size = section.Point("size", fallback);
+  Eigen::Vector2d size = section.Point("size", fallback);
   if (size.minCoeff() <= 0.0) section.Fail("size", "must be positive");
   return size;
 }

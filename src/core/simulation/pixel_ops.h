@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <opencv2/core/fast_math.hpp>
+
 namespace scan_image_slam {
 
 /// Arithmetic on pixels of the renderer: grey (uint8_t), or blue, green and red in the three low
@@ -13,7 +15,7 @@ template <typename Pixel>
 struct PixelOps;
 
 inline std::uint32_t ToByte(double value) {
-  return static_cast<std::uint32_t>(std::clamp(value, 0.0, 255.0) + 0.5);
+  return static_cast<std::uint32_t>(cvRound(std::clamp(value, 0.0, 255.0)));
 }
 
 template <>

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <opencv2/core/fast_math.hpp>
+
 namespace scan_image_slam {
 
 /// A texture at all halved widths and heights, each independent of the other, for area filtering.
@@ -84,7 +86,7 @@ class Ripmap {
 /// the same unit.
 inline int LevelFor(double footprint, double texel) {
   if (footprint <= texel) return 0;
-  return static_cast<int>(std::log2(footprint / texel) + 0.5);
+  return cvRound(std::log2(footprint / texel));
 }
 
 }  // namespace scan_image_slam

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <opencv2/core/fast_math.hpp>
+
 namespace scan_image_slam {
 namespace {
 
@@ -78,7 +80,7 @@ class ColumnRenderer : public SceneRenderer {
       std::copy(planes_.begin(), planes_.end(), part_.begin());
       RenderPart(StripOf(j, begin, end), 0.5F * (begin + end), part_.data());
       done += end - begin;
-      const auto weight = static_cast<std::uint32_t>(256.0F * (end - begin) / done + 0.5F);
+      const auto weight = static_cast<std::uint32_t>(cvRound(256.0F * (end - begin) / done));
       for (int row = 0; row < grid_.rows; ++row) {
         column[row] = PixelOps<Pixel>::Blend(column[row], part_[row], weight);
       }

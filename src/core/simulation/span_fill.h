@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include <opencv2/core/fast_math.hpp>
+
 namespace scan_image_slam {
 
 /// Rows of a column, as real numbers: 0 the border of the first one.
@@ -24,7 +26,7 @@ template <typename Pixel, typename Source>
 void FillSpan(Pixel* column, const RowSpan& span, double coverage, const Source& source) {
   if (span.empty() || coverage <= 0.0) return;
   const auto mix = [&](int row, double part) {
-    const auto weight = static_cast<std::uint32_t>(256.0 * part + 0.5);
+    const auto weight = static_cast<std::uint32_t>(cvRound(256.0 * part));
     column[row] = PixelOps<Pixel>::Blend(column[row], source(row), weight);
   };
   const int first = static_cast<int>(span.low);
@@ -37,7 +39,7 @@ void FillSpan(Pixel* column, const RowSpan& span, double coverage, const Source&
   if (coverage >= 1.0) {
     for (int row = first + 1; row < last; ++row) column[row] = source(row);
   } else {
-    const auto weight = static_cast<std::uint32_t>(256.0 * coverage + 0.5);
+    const auto weight = static_cast<std::uint32_t>(cvRound(256.0 * coverage));
     for (int row = first + 1; row < last; ++row) {
       column[row] = PixelOps<Pixel>::Blend(column[row], source(row), weight);
     }

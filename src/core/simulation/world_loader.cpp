@@ -143,7 +143,7 @@ void ReadLighting(YamlSection section, Lighting& lighting) {
 }
 
 Face ReadPlane(YamlSection section, const Face& fallback) {
-  const Face face = ReadFace(section, fallback);
+  Face face = ReadFace(section, fallback);
   section.Done();
   return face;
 }

@@ -42,8 +42,8 @@ YamlSection YamlSection::FromText(const std::string& text, const std::string& fi
   return {Parse(text, file), file, ""};
 }
 
-YamlSection::YamlSection(YAML::Node node, std::string file, std::string path)
-    : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {
+YamlSection::YamlSection(const YAML::Node& node, std::string file, std::string path)
+    : node_(node), file_(std::move(file)), path_(std::move(path)) {
   if (!node_.IsMap()) FailAt(node_, path_, "must be a map of keys and values");
   std::set<std::string> seen;
   for (const auto& entry : node_) {

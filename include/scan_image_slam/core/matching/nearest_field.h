@@ -42,7 +42,7 @@ class NearestField {
     std::int32_t id = -1;
     float squared_distance = 0.0f;
   };
-  using Tile = std::array<Cell, kTileSize * kTileSize>;
+  using Tile = std::array<Cell, static_cast<std::size_t>(kTileSize) * kTileSize>;
 
   /// floor(value / cell size), without the call that std::floor is on a plain x86-64.
   int CellIndex(double value) const {

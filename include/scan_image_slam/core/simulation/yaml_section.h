@@ -64,7 +64,7 @@ class YamlSection {
   const std::string& file() const { return file_; }
 
  private:
-  YamlSection(YAML::Node node, std::string file, std::string path);
+  YamlSection(const YAML::Node& node, std::string file, std::string path);
   YAML::Node Find(const std::string& key);
   YAML::Node Require(const std::string& key);
   [[noreturn]] void FailAt(const YAML::Node& node, const std::string& path,

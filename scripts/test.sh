@@ -1,0 +1,115 @@
+#!/usr/bin/env bash
+# All tests and checks, on a fresh Debian 12 or Ubuntu 20.04 machine: installs, builds, tests.
+#   scripts/test.sh              everything
+#   scripts/test.sh unit tidy    only these steps (and the build they need)
+# Steps: format build unit tools live sanitize bench tidy builds
+# Prints one line for each step, and all that a step has said if it fails. Tests with recorded data
+# look for it in ../shared/data, or in the folder SCAN_IMAGE_SLAM_DATA.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+all_steps=(format build unit tools live sanitize bench tidy builds)
+steps=("$@")
+[ $# -eq 0 ] && steps=("${all_steps[@]}")
+for step in "${steps[@]}"; do
+  if [[ " ${all_steps[*]} " != *" $step "* ]]; then
+    echo "test.sh: there is no step $step; there are: ${all_steps[*]}" >&2
+    exit 1
+  fi
+done
+
+"$here/setup.sh" --test
+. "$here/env.sh"
+export SETUP_OPTIONS=--test
+export SCAN_IMAGE_SLAM_DATA=${SCAN_IMAGE_SLAM_DATA:-$repository/../shared/data}
+build=$repository/build_test
+sanitized=$repository/build_sanitize
+logs=$build/logs
+mkdir -p "$logs"
+passed=0
+failed=0
+
+sources() { (cd "$repository" && git ls-files -- "$@"); }
+
+run_format() {
+  (cd "$repository" && sources '*.h' '*.cpp' | xargs clang-format --dry-run --Werror)
+}
+
+run_build() {
+  BUILD_TARGETS=tests "$here/build.sh" "$build" -DSCAN_IMAGE_SLAM_WERROR=ON \
+    -DSCAN_IMAGE_SLAM_BENCH=ON
+}
+
+# Sourced set-up files name the folder; programs and launch files are found by it.
+in_devel_space() {  # FOLDER COMMAND...
+  local folder=$1
+  shift
+  (set +u && . "$folder/devel/setup.bash" && set -u && "$@")
+}
+
+run_ctest() {  # FOLDER OPTIONS...: fails as well if no test was found
+  local folder=$1
+  shift
+  (cd "$folder" && in_devel_space "$folder" ctest --output-on-failure "$@") | tee "$logs/ctest"
+  ! grep -q 'No tests were found' "$logs/ctest"
+}
+
+run_unit() { run_ctest "$build" -j "$jobs" -R '_gtest_'; }
+run_tools() { run_ctest "$build" -j "$jobs" -R '^tools_'; }
+
+# Live nodes have the machine to themselves.
+run_live() {
+  if ! (cd "$build" && ctest -N -E '_gtest_|^tools_') | grep -q 'Total Tests: 0'; then
+    run_ctest "$build" -E '_gtest_|^tools_'
+  fi
+}
+
+run_sanitize() {
+  BUILD_TARGETS=tests "$here/build.sh" "$sanitized" -DSCAN_IMAGE_SLAM_WERROR=ON \
+    -DSCAN_IMAGE_SLAM_SANITIZE=address,undefined -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1"
+  # Libraries of ROS leak what lives as long as the program.
+  export ASAN_OPTIONS=detect_leaks=0:detect_stack_use_after_return=1
+  run_ctest "$sanitized" -j "$jobs" -R '_gtest_'
+  local tools=$sanitized/devel/lib/scan_image_slam
+  "$build/devel/lib/scan_image_slam/simulate" --world laboratory --out "$logs/run.bag" --duration 3
+  "$tools/slam_offline" --bag "$logs/run.bag" --out "$logs/run"
+}
+
+# That they run, not how fast: machines differ.
+run_bench() { "$build/devel/lib/scan_image_slam/stages_bench" --benchmark_min_time=0.01; }
+
+run_tidy() {
+  run-clang-tidy -quiet -j "$jobs" -p "$build" "^$repository/(src|bench)/" 2>/dev/null
+}
+
+run_builds() { "$here/check_builds.sh"; }
+
+run_step() {  # NAME
+  local begin=$SECONDS log=$logs/$1.log status=0
+  # Not as a condition: that would switch -e off within.
+  set +e
+  (set -e; "run_$1") >"$log" 2>&1 </dev/null
+  status=$?
+  set -e
+  if [ "$status" -eq 0 ]; then
+    passed=$((passed + 1))
+    printf '%-9s passed  %4d s\n' "$1" $((SECONDS - begin))
+    grep -hiE '(^|[^a-z])skipped' "$log" | sort -u | sed 's/^/          /' || true
+  else
+    failed=$((failed + 1))
+    cat "$log"
+    printf '%-9s FAILED  %4d s\n' "$1" $((SECONDS - begin))
+  fi
+}
+
+if [[ " ${steps[*]} " != *" build "* && "${steps[*]}" != format && "${steps[*]}" != builds ]]; then
+  steps=(build "${steps[@]}")
+fi
+[ -d "$SCAN_IMAGE_SLAM_DATA" ] ||
+  echo "there are no recordings in $SCAN_IMAGE_SLAM_DATA: tests that need them are skipped"
+for step in "${steps[@]}"; do
+  run_step "$step"
+  [ "$step" = build ] && [ "$failed" -gt 0 ] && break
+done
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

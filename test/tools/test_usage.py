@@ -1,0 +1,47 @@
+"""Help and wrong usage, which are the same for all programs."""
+import unittest
+
+from tools import ToolTest, run
+
+OPTIONS = {
+    "slam_offline": [
+        "--bag",
+        "--out",
+        "--config",
+        "--set",
+        "--no-images",
+        "--threads",
+        "--scan-topic",
+        "--image-topic",
+        "--camera-info-topic",
+        "--odom-topic",
+        "--base-frame",
+    ],
+    "simulate": ["--world", "--out", "--seed", "--duration", "--no-noise", "--no-images"],
+    "evaluate_trajectory": ["--plot", "--align"],
+    "evaluate_relations": ["--tolerance"],
+    "list_parameters": ["--help"],
+}
+
+
+class Usage(ToolTest):
+    def test_help_names_every_option(self):
+        for tool, options in OPTIONS.items():
+            with self.subTest(tool=tool):
+                self.expect(run(tool, "--help"), 0, *options)
+
+    def test_unknown_option_is_wrong_usage(self):
+        for tool in OPTIONS:
+            with self.subTest(tool=tool):
+                self.expect(run(tool, "--no-such-option"), 1)
+
+    def test_missing_arguments_are_wrong_usage(self):
+        for tool in OPTIONS:
+            if tool == "list_parameters":
+                continue
+            with self.subTest(tool=tool):
+                self.expect(run(tool), 1, "required")
+
+
+if __name__ == "__main__":
+    unittest.main()
