@@ -4,6 +4,7 @@
 #include "scan_image_slam/core/baseline/core_slam.h"
 #include "scan_image_slam/core/evaluation/trajectory.h"
 #include "scan_image_slam/core/pipeline/slam_pipeline.h"
+#include "scan_image_slam/core/simulation/random_stream.h"
 #include "scan_image_slam/ros/bag_input.h"
 #include "thread_time.h"
 
@@ -30,7 +31,8 @@ void Run(const Arguments& arguments) {
   BagInput input(arguments.bag, arguments.topics, arguments.slam);
   std::filesystem::create_directories(arguments.out);
 
-  CoreSlam core_slam(arguments.core_slam, arguments.seed);
+  RandomStream random(arguments.seed, "CoreSLAM");
+  CoreSlam core_slam(arguments.core_slam, [&] { return random.Normal(); });
   Trajectory trajectory;
   double milliseconds = 0.0;
   double tries = 0.0;

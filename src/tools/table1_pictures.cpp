@@ -13,7 +13,7 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr double kMargin = 0.5;  // around the walls [m]
+constexpr double kMargin = 1.6;  // around the walls, for legend and scale [m]
 constexpr int kLargestSide = 700;
 
 const cv::Scalar kTruthColour(0, 0, 0);

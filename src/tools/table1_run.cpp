@@ -2,6 +2,7 @@
 
 #include "scan_image_slam/core/evaluation/trajectory_errors.h"
 #include "scan_image_slam/core/pipeline/slam_pipeline.h"
+#include "scan_image_slam/core/simulation/random_stream.h"
 #include "scan_image_slam/core/simulation/robot_simulation.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 #include "scan_image_slam/ros/simulation_messages.h"
@@ -129,7 +130,8 @@ Table1Result RunTable1(const Table1Job& job, Scenario scenario,
                        const CoreSlamOptions& core_slam_options,
                        const std::function<void(double)>& progress) {
   RobotSimulation simulation(std::move(scenario), OptionsOf(job));
-  CoreSlam core_slam(core_slam_options, static_cast<std::uint64_t>(job.seed));
+  RandomStream random(static_cast<std::uint64_t>(job.seed), "CoreSLAM");
+  CoreSlam core_slam(core_slam_options, [&] { return random.Normal(); });
   Recorder core_slam_recorder;
   const auto run_core_slam = [&](const PipelineResult& result) {
     core_slam_recorder.Measure([&] {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace scan_image_slam {
 
@@ -29,10 +30,10 @@ CoreSlamScan ToCoreSlamScan(const FusedModel& model, double min_range) {
   return scan;
 }
 
-CoreSlam::CoreSlam(const CoreSlamOptions& options, std::uint64_t seed)
+CoreSlam::CoreSlam(const CoreSlamOptions& options, std::function<double()> normal)
     : options_((options.Validate(), options)),
       map_(options.cell_size, options.hole_width, options.quality),
-      random_(seed, "CoreSLAM") {}
+      normal_(std::move(normal)) {}
 
 Pose2 CoreSlam::Add(const CoreSlamScan& scan, const std::optional<Pose2>& odom_from_base) {
   if (drawn_stamp_) {
@@ -75,9 +76,9 @@ Pose2 CoreSlam::Search(const CoreSlamScan& scan, const Pose2& start) {
   double best_distance = centre_distance;
   tries_ = 0;
   for (int failures = 0; failures < options_.max_failures; ++tries_) {
-    const Pose2 candidate{centre.x + sigma_distance * random_.Normal(),
-                          centre.y + sigma_distance * random_.Normal(),
-                          centre.theta + sigma_angle * random_.Normal()};
+    const Pose2 candidate{centre.x + sigma_distance * normal_(),
+                          centre.y + sigma_distance * normal_(),
+                          centre.theta + sigma_angle * normal_()};
     const double distance = Distance(scan, candidate);
     if (distance < best_distance) {
       best_distance = distance;

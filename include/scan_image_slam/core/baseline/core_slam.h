@@ -3,9 +3,9 @@
 #include "scan_image_slam/core/baseline/hole_map.h"
 #include "scan_image_slam/core/fusion/fused_model.h"
 #include "scan_image_slam/core/geometry/pose2.h"
-#include "scan_image_slam/core/simulation/random_stream.h"
+#include "scan_image_slam/core/sensor/stamp.h"
 
-#include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,7 +15,7 @@ namespace scan_image_slam {
 
 /// The algorithm that the paper compares itself with, after Steux and El Hamzaoui: tinySLAM, a SLAM
 /// algorithm in less than 200 lines C-language program (ICARCV 2010). A baseline for evaluation,
-/// not a part of the SLAM. The defaults are those of the original, but for `update_period`.
+/// not a part of the SLAM. The defaults are those of the original, which draws every scan.
 struct CoreSlamOptions {
   double cell_size = 0.01;      ///< [m]
   double hole_width = 0.6;      ///< of the V around an obstacle [m]
@@ -43,7 +43,8 @@ CoreSlamScan ToCoreSlamScan(const FusedModel& model, double min_range);
 
 class CoreSlam {
  public:
-  CoreSlam(const CoreSlamOptions& options, std::uint64_t seed);
+  /// `normal` draws the random numbers of the search, of mean 0 and standard deviation 1.
+  CoreSlam(const CoreSlamOptions& options, std::function<double()> normal);
 
   /// Localises the scan and draws it into the map. `odom_from_base` is the odometry's pose at the
   /// same time, if it is known. The map's frame begins at the first scan's base.
@@ -61,7 +62,7 @@ class CoreSlam {
 
   CoreSlamOptions options_;
   HoleMap map_;
-  RandomStream random_;
+  std::function<double()> normal_;
   Pose2 map_from_base_;
   std::optional<Pose2> last_odom_from_base_;
   std::optional<Stamp> drawn_stamp_;
