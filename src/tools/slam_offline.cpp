@@ -1,13 +1,13 @@
 // Runs the three stages on a bag, in process and as fast as the machine allows.
 
 #include "progress_line.h"
-#include "scan_image_slam/core/config/config_file.h"
 #include "scan_image_slam/core/evaluation/trajectory.h"
 #include "scan_image_slam/core/mapping/map_file.h"
 #include "scan_image_slam/core/mapping/map_picture.h"
 #include "scan_image_slam/core/pipeline/slam_pipeline.h"
 #include "scan_image_slam/ros/bag_input.h"
-#include "scan_image_slam/ros/package_files.h"
+#include "slam_options.h"
+#include "thread_time.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -22,7 +22,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <sys/resource.h>
-#include <time.h>
 
 namespace scan_image_slam {
 namespace {
@@ -43,11 +42,11 @@ class StageTimes {
  public:
   void Run(Stage stage, const std::function<void()>& work) {
     const auto wall = std::chrono::steady_clock::now();
-    const double cpu = CpuMilliseconds();
+    const double cpu = ThreadMilliseconds();
     work();
     current_[static_cast<int>(stage)] +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - wall).count();
-    cpu_ms_ += CpuMilliseconds() - cpu;
+    cpu_ms_ += ThreadMilliseconds() - cpu;
   }
 
   void FinishScan() {
@@ -67,12 +66,6 @@ class StageTimes {
   }
 
  private:
-  static double CpuMilliseconds() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-  }
-
   static nlohmann::json Summary(std::vector<double> times) {
     if (times.empty()) times.push_back(0.0);
     std::sort(times.begin(), times.end());
@@ -156,23 +149,7 @@ void WriteResults(const Arguments& arguments, const Run& run, const Trajectory& 
 }
 
 SlamOptions ReadOptions(const Arguments& arguments) {
-  SlamOptions options;
-  std::vector<ParameterSet> sets = options.Parameters();
-  const bool by_name = arguments.config == "default" || arguments.config == "paper";
-  const std::string path =
-      by_name ? PackageFile("config/" + arguments.config + ".yaml") : arguments.config;
-  ApplyConfig(ReadConfigFile(path), path, &sets);
-  for (const std::string& setting : arguments.settings) {
-    const std::size_t slash = setting.find('/');
-    const std::size_t equals = setting.find('=');
-    if (slash == std::string::npos || equals == std::string::npos || slash > equals) {
-      throw ParameterError("--set " + setting + ": NODE/PARAMETER=VALUE is expected");
-    }
-    ApplyConfig({{setting.substr(0, slash),
-                  {{setting.substr(slash + 1, equals - slash - 1),
-                    ParseParameterValue(setting.substr(equals + 1))}}}},
-                "--set", &sets);
-  }
+  SlamOptions options = ReadSlamOptions(arguments.config, arguments.settings);
   if (!arguments.base_frame.empty()) {
     options.fusion_node.odometry.base_frame = arguments.base_frame;
   }
