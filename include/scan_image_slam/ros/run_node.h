@@ -1,13 +1,31 @@
 #pragma once
 
-#include <cstdio>
+#include <csignal>
 #include <exception>
+#include <optional>
 
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/node_handle.h>
 
 namespace scan_image_slam {
+
+/// Holds Ctrl-C back while a node is being made: roscpp aborts if it has to shut down half of one.
+class InterruptLater {
+ public:
+  InterruptLater() {
+    sigset_t interrupt;
+    sigemptyset(&interrupt);
+    sigaddset(&interrupt, SIGINT);
+    pthread_sigmask(SIG_BLOCK, &interrupt, &before_);
+  }
+  ~InterruptLater() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  InterruptLater(const InterruptLater&) = delete;
+  InterruptLater& operator=(const InterruptLater&) = delete;
+
+ private:
+  sigset_t before_;
+};
 
 /// main() of a node: spins until it is shut down. A wrong configuration ends it at once, with the
 /// reason and exit code 1.
@@ -17,7 +35,11 @@ int RunNode(int argc, char** argv, const char* name) {
   ros::NodeHandle node;
   ros::NodeHandle private_node("~");
   try {
-    Node instance(node, private_node);
+    std::optional<Node> instance;
+    {
+      const InterruptLater interrupt_later;
+      instance.emplace(node, private_node);
+    }
     ros::spin();
     return 0;
   } catch (const std::exception& error) {
