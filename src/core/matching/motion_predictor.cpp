@@ -26,6 +26,21 @@ Eigen::Matrix3d CovarianceOf(const SearchWindow& window) {
   return stddev.cwiseAbs2().asDiagonal();
 }
 
+/// Encoders can jump by more than any error of theirs; a robot can't. So the window reaches what
+/// inertia alone predicts.
+SearchWindow Including(const Pose2& kept_motion, const Pose2& predicted_motion, SearchWindow window,
+                       const MotionBounds& bounds) {
+  const Pose2 difference = predicted_motion.Inverse() * kept_motion;
+  window.half_angle =
+      std::max(window.half_angle, std::min(M_PI, std::abs(difference.theta) + bounds.min_angle));
+  const double distance = difference.translation().norm() + bounds.min_distance;
+  if (distance > window.half_distance) {
+    window.half_distance = distance;
+    window.half_lateral = std::max(window.half_lateral, bounds.lateral_per_distance * distance);
+  }
+  return window;
+}
+
 }  // namespace
 
 void MotionNoise::Validate() const {
@@ -67,6 +82,10 @@ MotionPrediction MotionPredictor::Predict(Stamp stamp) const {
     bounds.lateral_per_distance = options_.lateral_per_distance_without_encoders;
   }
   prediction.window = MakeWindow(prediction.motion, prediction.dt, bounds);
+  if (prediction.from_encoders) {
+    prediction.window = Including(Move(velocity_, std::min(dt, bounds.max_time)), prediction.motion,
+                                  prediction.window, bounds);
+  }
   prediction.covariance =
       prediction.from_encoders
           ? CovarianceOf(prediction.motion, std::min(prediction.dt, bounds.max_time),
@@ -79,7 +98,7 @@ void MotionPredictor::Update(Stamp stamp, const Pose2& matched_motion) {
   if (last_stamp_) {
     constexpr double kAdaption = 0.02;
     const double dt = Seconds(stamp - *last_stamp_);
-    velocity_ = VelocityOf(matched_motion, dt);
+    velocity_ = VelocityOf(matched_motion, std::max(dt, period_));  // stamps may jitter
     period_ = period_ == 0.0 ? dt : period_ + kAdaption * (std::min(dt, 3.0 * period_) - period_);
   }
   last_stamp_ = stamp;

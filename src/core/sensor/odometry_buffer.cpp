@@ -50,8 +50,8 @@ OdometryBuffer::Result OdometryBuffer::Add(Stamp stamp, const Pose2& odom_from_b
     motion = Pose2{};
     if (readings_.size() >= 2) {
       const Reading& before = readings_[readings_.size() - 2];
-      const double fraction =
-          std::min(dt, options_.max_extrapolation) / Seconds(last.stamp - before.stamp);
+      const double before_dt = std::max(Seconds(last.stamp - before.stamp), period_);
+      const double fraction = std::min(dt, options_.max_extrapolation) / before_dt;
       motion = Interpolate(
           Pose2{}, before.continuous_from_base.Inverse() * last.continuous_from_base, fraction);
     }
