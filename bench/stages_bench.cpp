@@ -75,8 +75,8 @@ Recording Record() {
 }
 
 const Recording& Drive() {
-  static const Recording recording = Record();
-  return recording;
+  static const Recording kRecording = Record();
+  return kRecording;
 }
 
 template <typename StageType>
@@ -157,6 +157,7 @@ void UpdateMap(benchmark::State& state) {
   BoundedIcp bounded_icp{BoundedIcpOptions{}};
   AddOdometry(&bounded_icp);
   std::vector<MatchedMotion> matches;
+  matches.reserve(models.size());
   for (const FusedModel& model : models) matches.push_back(bounded_icp.Match(model));
   Mapper mapper(options);
   std::size_t next = models.size();

@@ -12,10 +12,8 @@ if [ -z "$work" ]; then
   work=$(mktemp -d)
   trap 'rm -rf "$work"' EXIT
 fi
-mkdir -p "$work" && work=$(cd "$work" && pwd)
+mkdir -p "$work/home" && work=$(cd "$work" && pwd)
 options=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCATKIN_ENABLE_TESTING=OFF)
-ros=/opt/ros/noetic
-[ -d "$ros" ] || ros=/usr
 
 say() { echo "check_builds: $*"; }
 
@@ -65,7 +63,8 @@ clean() {
   env -i HOME="$work/home" PATH=/usr/bin:/bin ROS_MASTER_URI=http://localhost:1 "$@"
 }
 sourced() {  # COMMAND...: as a user who has sourced the workspace
-  clean bash -c '. "$1/setup.bash"; shift; exec "$@"' - "$install" "$@"
+  # Within a function without arguments, as the set-up file would take ours for its own.
+  clean bash -c 'load() { . "$0/setup.bash"; }; load; exec "$@"' "$install" "$@"
 }
 
 say "tools without any set-up"

@@ -43,7 +43,9 @@ run_build() {
 in_devel_space() {  # FOLDER COMMAND...
   local folder=$1
   shift
-  (set +u && . "$folder/devel/setup.bash" && set -u && "$@")
+  # Within a function without arguments, as the set-up file would take ours for its own.
+  load() { set +u && . "$folder/devel/setup.bash" && set -u; }
+  (load && "$@")
 }
 
 run_ctest() {  # FOLDER OPTIONS...: fails as well if no test was found

@@ -21,8 +21,8 @@ void CheckLayout(const sensor_msgs::Image& message) {
                                 std::to_string(message.height));
   }
   const std::size_t bits =
-      static_cast<std::size_t>(sensor_msgs::image_encodings::bitDepth(message.encoding) *
-                               sensor_msgs::image_encodings::numChannels(message.encoding));
+      static_cast<std::size_t>(sensor_msgs::image_encodings::bitDepth(message.encoding)) *
+      static_cast<std::size_t>(sensor_msgs::image_encodings::numChannels(message.encoding));
   if (message.step < message.width * bits / 8 ||
       message.data.size() < static_cast<std::size_t>(message.step) * message.height) {
     throw std::invalid_argument("the image's data (" + std::to_string(message.data.size()) +

@@ -24,7 +24,7 @@ std::filesystem::path PathInFolder(const std::string& folder, const std::string&
   namespace fs = std::filesystem;
   if (name.empty()) throw std::invalid_argument("the name of the map is empty");
   const fs::path root = fs::weakly_canonical(fs::absolute(folder));
-  const fs::path path = fs::weakly_canonical(root / name);
+  fs::path path = fs::weakly_canonical(root / name);
   const fs::path relative = path.lexically_relative(root);
   if (relative.empty() || *relative.begin() == ".." || relative == ".") {
     throw std::invalid_argument(path.string() + " lies outside the folder " + root.string() +

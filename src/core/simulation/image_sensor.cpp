@@ -67,7 +67,7 @@ cv::Mat ImageSensor::Develop(const cv::Mat& light, const Development& developmen
 void ImageSensor::FillTable(double gain) {
   if (table_gain_ == gain) return;
   table_gain_ = gain;
-  table_.resize(256 * 256);
+  table_.resize(std::size_t{256} * 256);
   const double read = options_.read_noise * gain;
   for (int level = 0; level < 256; ++level) {
     const double stddev = std::sqrt(read * read + options_.shot_noise * gain * level);
