@@ -37,6 +37,10 @@ GridScan ToGridScan(const FusedModel& model, const Velocity2& sweep_correction,
   return scan;
 }
 
+/// Stands for what was driven while the matching could not follow: so far may the pose have drifted
+/// [m].
+constexpr double kUnknownWay = 30.0;
+
 bool IsReliable(MatchStatus status) {
   return status != MatchStatus::kOnWindowEdge && status != MatchStatus::kTooFewPoints;
 }
@@ -131,7 +135,9 @@ std::shared_ptr<const Keyframe> Mapper::Keep(const FusedModel& model, const Matc
   keyframe->previous_from_base = Attach(map_from_base).keyframe_from_base;
   keyframe->id = static_cast<int>(keyframe_poses_.size());
   keyframe->joined = joined_ && match.start_stamp == kept_start_stamp_;
-  way_ += keyframe->previous_from_base.translation().norm();
+  if (keyframe->id > 0) {
+    way_ += keyframe->joined ? keyframe->previous_from_base.translation().norm() : kUnknownWay;
+  }
   keyframe->way = way_;
   const double s = options_.keyframe_distance_stddev;
   const double a = options_.keyframe_angle_stddev;

@@ -99,7 +99,7 @@ std::vector<Pose2> OptimizeGraph(std::vector<Pose2> nodes,
   solver.max_num_iterations = options.max_iterations;
   solver.num_threads = 1;
   solver.logging_type = ceres::SILENT;
-  solver.function_tolerance = 1e-4;
+  solver.function_tolerance = 1e-5;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -90,7 +90,8 @@ TEST(OccupancyGrid, ACellCountsOncePerScan) {
   OccupancyGrid grid(MetreCells());
   GridScan scan;
   scan.origin = {0.5, 0.5};
-  for (int i = 0; i < 10; ++i) scan.beams.push_back({{3.5F, 0.1F + 0.08F * static_cast<float>(i)}, true});
+  for (int i = 0; i < 10; ++i)
+    scan.beams.push_back({{3.5F, 0.1F + 0.08F * static_cast<float>(i)}, true});
   grid.Add(scan, kOrigin);
   for (int x = 0; x < 3; ++x) EXPECT_EQ(grid.Occupancy(x, 0), 40) << x;
   EXPECT_EQ(grid.Occupancy(3, 0), 75);

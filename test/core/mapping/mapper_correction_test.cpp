@@ -1,0 +1,136 @@
+#include "grid_fixtures.h"
+#include "mapper_fixtures.h"
+#include "scan_image_slam/core/mapping/mapper.h"
+#include "support_rooms.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace scan_image_slam {
+namespace {
+
+constexpr int kAll = std::numeric_limits<int>::max();
+
+/// A drive of 4.8 m through a room, matched without an error: each scan is drawn, every fourth is
+/// kept.
+class MapperCorrection : public ::testing::Test {
+ protected:
+  MapperCorrection() : mapper_(MapperOptions()) {
+    for (int i = 0; i <= 40; ++i) {
+      const Pose2 pose{-2.4 + 0.12 * i, 0.5, 0.0};
+      poses_.push_back(pose);
+      const MatchedMotion match =
+          MatchAt(kStart, kStart + i * 25'000'000LL, poses_.front().Inverse() * pose, pose);
+      models_.push_back(ModelOf(FurnishedRoom(), pose, match.stamp, TestLaser()));
+      matches_.push_back(match);
+      mapper_.AddMatch(match);
+      if (const auto keyframe = mapper_.AddModel(models_.back(), match)) {
+        keyframes_.push_back(keyframe);
+        keyframe_poses_.push_back(pose);
+      }
+    }
+  }
+
+  static constexpr Stamp kStart = 1'000'000'000LL;
+  Mapper mapper_;
+  std::vector<Pose2> poses_;
+  std::vector<FusedModel> models_;
+  std::vector<MatchedMotion> matches_;
+  std::vector<std::shared_ptr<const Keyframe>> keyframes_;
+  std::vector<Pose2> keyframe_poses_;
+};
+
+TEST_F(MapperCorrection, KeepsAKeyframeWhereTheRobotHasMoved) {
+  ASSERT_EQ(keyframes_.size(), 11U);
+  EXPECT_EQ(keyframes_.front()->id, 0);
+  EXPECT_NEAR(keyframes_.front()->previous_from_base.x, -2.4, 1e-12);
+  for (std::size_t i = 1; i < keyframes_.size(); ++i) {
+    EXPECT_EQ(keyframes_[i]->id, static_cast<int>(i));
+    EXPECT_TRUE(keyframes_[i]->joined);
+    EXPECT_NEAR(keyframes_[i]->previous_from_base.x, 0.48, 1e-9);
+    EXPECT_NEAR(keyframes_[i]->way, 0.48 * static_cast<double>(i), 1e-9);
+  }
+}
+
+TEST_F(MapperCorrection, MovesEveryPoseWithItsKeyframe) {
+  // The second half of the drive is turned about its first keyframe.
+  std::vector<Pose2> corrected = keyframe_poses_;
+  const Pose2 turn = keyframe_poses_[5] * Pose2{0.0, 0.0, 0.1} * keyframe_poses_[5].Inverse();
+  for (std::size_t i = 5; i < corrected.size(); ++i) corrected[i] = turn * corrected[i];
+  mapper_.Correct(corrected);
+  const std::vector<MapPose> trajectory = mapper_.Trajectory();
+  ASSERT_EQ(trajectory.size(), poses_.size());
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    // The first scan of a keyframe was tracked before it was kept: it hangs on the one before.
+    const bool turned = i > 20;
+    const Pose2 expected = turned ? turn * poses_[i] : poses_[i];
+    EXPECT_EQ(trajectory[i].stamp, matches_[i].stamp);
+    EXPECT_NEAR((trajectory[i].map_from_base.translation() - expected.translation()).norm(), 0.0,
+                1e-9)
+        << i;
+  }
+  const MatchedMotion next =
+      MatchAt(kStart, kStart + 2'000'000'000LL, poses_.front().Inverse() * Pose2{2.5, 0.5, 0.0});
+  const Pose2 goes_on = mapper_.AddMatch(next).map_from_base;
+  const Pose2 expected = turn * Pose2{2.5, 0.5, 0.0};
+  EXPECT_NEAR((goes_on.translation() - expected.translation()).norm(), 0.0, 1e-9);
+}
+
+TEST_F(MapperCorrection, LeavesKeyframesThatCameLaterWhereTheyLieToTheLastCorrected) {
+  std::vector<Pose2> corrected(keyframe_poses_.begin(), keyframe_poses_.begin() + 4);
+  const Pose2 shift{0.3, -0.2, 0.0};
+  for (Pose2& pose : corrected) pose = shift * pose;
+  mapper_.Correct(corrected);
+  for (const MapPose& pose : mapper_.Trajectory()) {
+    const std::size_t i = static_cast<std::size_t>((pose.stamp - kStart) / 25'000'000LL);
+    if (i == 0) continue;  // before the first keyframe
+    EXPECT_NEAR(pose.map_from_base.x, poses_[i].x + 0.3, 1e-9);
+    EXPECT_NEAR(pose.map_from_base.y, poses_[i].y - 0.2, 1e-9);
+  }
+}
+
+TEST_F(MapperCorrection, TheRedrawnMapIsThatOfTheCorrectedPosesBitForBit) {
+  std::vector<Pose2> corrected;
+  const Pose2 moved{0.4, 0.15, 0.07};
+  for (const Pose2& pose : keyframe_poses_) corrected.push_back(moved * pose);
+  mapper_.Correct(corrected);
+  EXPECT_FALSE(mapper_.Redraw(3));  // a few at a time
+  EXPECT_TRUE(mapper_.Redraw(kAll));
+
+  Mapper fresh{MapperOptions()};
+  fresh.SetPose(corrected.front());
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    MatchedMotion match = matches_[i];
+    match.odom_from_base.reset();
+    fresh.AddMatch(match);
+    fresh.AddModel(models_[i], match);
+  }
+  ASSERT_GT(DrawnCells(fresh), 1000);
+  ExpectSameOccupancy(mapper_.grid(), fresh.grid());
+}
+
+TEST_F(MapperCorrection, IgnoresPosesOfMoreKeyframesThanThereAre) {
+  std::vector<Pose2> foreign(keyframe_poses_.size() + 1, Pose2{9, 9, 0});
+  mapper_.Correct(foreign);
+  mapper_.Correct({});
+  EXPECT_NEAR(mapper_.Trajectory().back().map_from_base.x, poses_.back().x, 1e-9);
+}
+
+TEST_F(MapperCorrection, AMotionThatTheMatchingLostIsMarkedAsABreak) {
+  MatchedMotion lost =
+      MatchAt(kStart, kStart + 1'100'000'000LL, poses_.front().Inverse() * Pose2{2.6, 0.5, 0.0});
+  lost.status = MatchStatus::kTooFewPoints;
+  mapper_.AddMatch(lost);
+  EXPECT_EQ(mapper_.AddModel(models_.back(), lost), nullptr);
+  const MatchedMotion again =
+      MatchAt(kStart, kStart + 1'200'000'000LL, poses_.front().Inverse() * Pose2{2.9, 0.5, 0.0});
+  mapper_.AddMatch(again);
+  const auto keyframe = mapper_.AddModel(models_.back(), again);
+  ASSERT_NE(keyframe, nullptr);
+  EXPECT_FALSE(keyframe->joined);
+  EXPECT_GE(keyframe->covariance(0, 0), 1.0);
+}
+
+}  // namespace
+}  // namespace scan_image_slam

@@ -1,0 +1,113 @@
+#include "scan_image_slam/core/mapping/pose_graph.h"
+
+#include "support_rooms.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace scan_image_slam {
+namespace {
+
+constexpr double kTenthOfAMillimetre = 1e-4;
+
+GraphConstraint Between(const std::vector<Pose2>& nodes, int from, int to, double weight = 1.0) {
+  GraphConstraint constraint;
+  constraint.from = from;
+  constraint.to = to;
+  constraint.from_from_to = nodes[from].Inverse() * nodes[to];
+  constraint.information = weight * Eigen::Matrix3d::Identity();
+  return constraint;
+}
+
+void ExpectNear(const Pose2& a, const Pose2& b, double tolerance) {
+  EXPECT_NEAR(a.x, b.x, tolerance);
+  EXPECT_NEAR(a.y, b.y, tolerance);
+  EXPECT_NEAR(NormalizeAngle(a.theta - b.theta), 0.0, tolerance);
+}
+
+TEST(OptimizeGraph, FindsThePosesThatTheConstraintsAgreeOn) {
+  TestRandom random(4);
+  std::vector<Pose2> truth;
+  for (int i = 0; i < 12; ++i) {
+    truth.push_back({random.Uniform(-5, 5), random.Uniform(-5, 5), random.Uniform(-M_PI, M_PI)});
+  }
+  std::vector<GraphConstraint> constraints;
+  for (int i = 1; i < 12; ++i) constraints.push_back(Between(truth, i - 1, i, 10.0));
+  constraints.push_back(Between(truth, 2, 9));
+  constraints.push_back(Between(truth, 11, 0));
+  std::vector<Pose2> start = truth;
+  for (std::size_t i = 1; i < start.size(); ++i) {
+    start[i] = start[i] * Pose2{random.Uniform(-0.3, 0.3), random.Uniform(-0.3, 0.3),
+                                random.Uniform(-0.2, 0.2)};
+  }
+  GraphOptions options;
+  options.max_iterations = 100;
+  const std::vector<Pose2> found = OptimizeGraph(start, constraints, 1, options);
+  for (std::size_t i = 0; i < truth.size(); ++i) ExpectNear(found[i], truth[i], 1e-3);
+}
+
+TEST(OptimizeGraph, SharesAnErrorByTheWeights) {
+  // Three nodes on a line, measured 1 m and 1 m apart, but 2.3 m in all: the constraints have
+  // weights 1, 1 and 1, so each gives way by a third of 0.3 m.
+  const std::vector<Pose2> nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  std::vector<GraphConstraint> constraints = {Between(nodes, 0, 1), Between(nodes, 1, 2),
+                                              Between(nodes, 0, 2)};
+  constraints[2].from_from_to.x = 2.3;
+  const std::vector<Pose2> found = OptimizeGraph(nodes, constraints, 1, GraphOptions());
+  EXPECT_NEAR(found[1].x, 1.1, kTenthOfAMillimetre);
+  EXPECT_NEAR(found[2].x, 2.2, kTenthOfAMillimetre);
+}
+
+TEST(OptimizeGraph, ADirectionWithoutInformationIsLeftToTheOthers) {
+  const std::vector<Pose2> nodes = {{0, 0, 0}, {1, 0, 0}};
+  std::vector<GraphConstraint> constraints = {Between(nodes, 0, 1), Between(nodes, 0, 1)};
+  constraints[1].from_from_to = {7.0, 0.4, 0.0};  // says nothing along x
+  constraints[1].information = Eigen::Vector3d(0.0, 1.0, 1.0).asDiagonal();
+  const std::vector<Pose2> found = OptimizeGraph(nodes, constraints, 1, GraphOptions());
+  EXPECT_NEAR(found[1].x, 1.0, 1e-3);
+  EXPECT_NEAR(found[1].y, 0.2, 1e-3);
+}
+
+TEST(OptimizeGraph, NodesBeforeTheFirstFreeOneStay) {
+  const std::vector<Pose2> nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  std::vector<GraphConstraint> constraints = {Between(nodes, 0, 1), Between(nodes, 1, 2),
+                                              Between(nodes, 2, 3), Between(nodes, 0, 3)};
+  constraints[3].from_from_to.x = 3.6;
+  const std::vector<Pose2> found = OptimizeGraph(nodes, constraints, 2, GraphOptions());
+  EXPECT_EQ(found[1].x, 1.0);
+  EXPECT_NEAR(found[2].x, 2.2, kTenthOfAMillimetre);
+  EXPECT_NEAR(found[3].x, 3.4, kTenthOfAMillimetre);
+}
+
+TEST(OptimizeGraph, AWrongPlaceAmongManyRightOnesIsOverruled) {
+  std::vector<Pose2> nodes;
+  for (int i = 0; i < 10; ++i) nodes.push_back({0.5 * i, 0.0, 0.0});
+  std::vector<GraphConstraint> constraints;
+  for (int i = 1; i < 10; ++i) constraints.push_back(Between(nodes, i - 1, i, 1e4));
+  for (int i = 5; i < 10; ++i) {
+    constraints.push_back(Between(nodes, 0, i, 1e4));
+    constraints.back().robust = true;
+  }
+  GraphConstraint wrong = Between(nodes, 0, 9, 1e4);
+  wrong.from_from_to.y = 3.0;
+  wrong.robust = true;
+  constraints.push_back(wrong);
+  const std::vector<Pose2> found = OptimizeGraph(nodes, constraints, 1, GraphOptions());
+  EXPECT_NEAR(found[9].y, 0.0, 0.02);
+  EXPECT_GT(SquaredResidual(wrong, found), 1e4 * 2.9 * 2.9);
+}
+
+TEST(SquaredResidual, IsMeasuredInTheFrameOfTheMeasuredPose) {
+  // Node 1 was measured 1 m ahead, turned left by 90 degrees; it lies 0.2 m to the left of that,
+  // which is ahead for it: the first weight counts.
+  GraphConstraint constraint;
+  constraint.from = 0;
+  constraint.to = 1;
+  constraint.from_from_to = {1.0, 0.0, M_PI_2};
+  constraint.information = Eigen::Vector3d(100.0, 1.0, 1.0).asDiagonal();
+  EXPECT_NEAR(SquaredResidual(constraint, {{0, 0, 0}, {1.0, 0.2, M_PI_2}}), 100.0 * 0.04, 1e-9);
+}
+
+}  // namespace
+}  // namespace scan_image_slam
