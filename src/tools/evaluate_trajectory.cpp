@@ -68,6 +68,7 @@ std::string FindPlotScript() {
 /// Runs a program, its output on stderr because stdout holds the result; returns its exit status.
 int Run(std::vector<std::string> command) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (std::string& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
