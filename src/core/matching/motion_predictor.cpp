@@ -26,18 +26,20 @@ Eigen::Matrix3d CovarianceOf(const SearchWindow& window) {
   return stddev.cwiseAbs2().asDiagonal();
 }
 
-/// Encoders can jump by more than any error of theirs; a robot can't. So the window reaches what
-/// inertia alone predicts.
-SearchWindow Including(const Pose2& kept_motion, const Pose2& predicted_motion, SearchWindow window,
-                       const MotionBounds& bounds) {
-  const Pose2 difference = predicted_motion.Inverse() * kept_motion;
-  window.half_angle =
-      std::max(window.half_angle, std::min(M_PI, std::abs(difference.theta) + bounds.min_angle));
-  const double distance = difference.translation().norm() + bounds.min_distance;
-  if (distance > window.half_distance) {
-    window.half_distance = distance;
-    window.half_lateral = std::max(window.half_lateral, bounds.lateral_per_distance * distance);
-  }
+/// Encoders that were reset or hit can jump by more than any error of theirs; a robot can't. Then
+/// the window reaches what inertia alone predicts.
+SearchWindow IncludingJump(const Pose2& kept_motion, const Pose2& predicted_motion,
+                           SearchWindow window, const MotionBounds& bounds) {
+  constexpr double kJumpDistance = 0.5;  // [m]
+  constexpr double kJumpAngle = 0.5;     // [rad]
+  const Pose2 jump = predicted_motion.Inverse() * kept_motion;
+  const double distance = jump.translation().norm();
+  const double angle = std::abs(jump.theta);
+  if (distance < kJumpDistance && angle < kJumpAngle) return window;
+  window.half_angle = std::max(window.half_angle, std::min(M_PI, angle + bounds.min_angle));
+  window.half_distance = std::max(window.half_distance, distance + bounds.min_distance);
+  window.half_lateral =
+      std::max(window.half_lateral, bounds.lateral_per_distance * window.half_distance);
   return window;
 }
 
