@@ -85,8 +85,8 @@ MotionPrediction MotionPredictor::Predict(Stamp stamp) const {
   }
   prediction.window = MakeWindow(prediction.motion, prediction.dt, bounds);
   if (prediction.from_encoders) {
-    prediction.window = Including(Move(velocity_, std::min(dt, bounds.max_time)), prediction.motion,
-                                  prediction.window, bounds);
+    prediction.window = IncludingJump(Move(velocity_, std::min(dt, bounds.max_time)),
+                                      prediction.motion, prediction.window, bounds);
   }
   prediction.covariance =
       prediction.from_encoders

@@ -88,6 +88,21 @@ TEST(MotionPredictor, MakesWindowAndCovarianceFromTheEncoders) {
   EXPECT_EQ(prediction.covariance(0, 2), 0.0);
 }
 
+TEST(MotionPredictor, AJumpOfTheEncodersIsWithinTheWindow) {
+  // Standing still, the encoders turn by 150 degrees in a second: no error of theirs is so large,
+  // and no reset was noticed, as a robot might turn so fast.
+  MotionPredictor predictor(DecimalOptions());
+  for (int i = 0; i < 3; ++i) {
+    predictor.odometry().Add(FromSeconds(1.0 + i), Pose2());
+    predictor.Update(FromSeconds(1.0 + i), Pose2());
+  }
+  const double jump = 150.0 * M_PI / 180.0;
+  predictor.odometry().Add(FromSeconds(4.0), {0.0, 0.0, jump});
+  const MotionPrediction prediction = predictor.Predict(FromSeconds(4.0));
+  EXPECT_NEAR(prediction.motion.theta, jump, 1e-12);
+  EXPECT_TRUE(prediction.window.Contains(ToArcCoordinates(prediction.motion.Inverse())));
+}
+
 TEST(MotionPredictor, CovarianceGrowsWithTheTurnAndTimeUpToAMaximum) {
   MotionPredictor predictor(DecimalOptions());
   predictor.odometry().Add(FromSeconds(1.0), {});
