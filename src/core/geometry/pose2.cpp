@@ -20,7 +20,7 @@ Chord UnitChord(double angle) {
 double NormalizeAngle(double angle) {
   if (angle > -M_PI && angle <= M_PI) return angle;
   angle = std::remainder(angle, 2.0 * M_PI);
-  return angle > -M_PI ? angle : M_PI;
+  return angle <= -M_PI ? M_PI : angle;
 }
 
 Pose2 Pose2::Inverse() const {

@@ -16,9 +16,9 @@ bool IsFisheye(const CameraIntrinsics& intrinsics) {
 void RequireCoefficients(const CameraIntrinsics& intrinsics) {
   const std::size_t n = intrinsics.d.size();
   if (IsFisheye(intrinsics)) {
-    if (n == 4) return;
+    if (n == 0 || n == 4) return;
   } else if (intrinsics.distortion_model == "rational_polynomial") {
-    if (n == 8 || n == 12 || n == 14) return;
+    if (n == 0 || n == 8 || n == 12 || n == 14) return;
   } else if (intrinsics.distortion_model == "plumb_bob" || intrinsics.distortion_model.empty()) {
     if (n == 0 || n == 4 || n == 5) return;
   } else {
@@ -50,6 +50,7 @@ void CameraIntrinsics::Validate() const {
 
 CameraModel::CameraModel(const CameraIntrinsics& intrinsics) : intrinsics_(intrinsics) {
   intrinsics_.Validate();
+  if (intrinsics_.d.empty()) intrinsics_.d.assign(4, 0.0);
   // Polynomials fold points far outside the picture back into it; what the border sees is the
   // limit.
   std::vector<cv::Point2d> border;

@@ -42,7 +42,6 @@ OdometryBuffer::Result OdometryBuffer::Add(Stamp stamp, const Pose2& odom_from_b
   // Stamps may jitter, so a step is judged by the usual period if that is longer.
   const double dt = Seconds(stamp - last.stamp);
   const double step = std::max(dt, period_);
-  period_ = period_ == 0.0 ? dt : period_ + 0.05 * (std::min(dt, 10.0 * period_) - period_);
   Pose2 motion = last_odom_from_base_.Inverse() * odom_from_base;
   const bool reset = motion.translation().norm() > options_.max_speed * step + kPositionSlack ||
                      std::abs(motion.theta) > options_.max_turn_rate * step + kAngleSlack;
@@ -50,8 +49,7 @@ OdometryBuffer::Result OdometryBuffer::Add(Stamp stamp, const Pose2& odom_from_b
     motion = Pose2{};
     if (readings_.size() >= 2) {
       const Reading& before = readings_[readings_.size() - 2];
-      const double before_dt = std::max(Seconds(last.stamp - before.stamp), period_);
-      const double fraction = std::min(dt, options_.max_extrapolation) / before_dt;
+      const double fraction = std::min(dt, options_.max_extrapolation) / TimeBetween(before, last);
       motion = Interpolate(
           Pose2{}, before.continuous_from_base.Inverse() * last.continuous_from_base, fraction);
     }
@@ -59,6 +57,7 @@ OdometryBuffer::Result OdometryBuffer::Add(Stamp stamp, const Pose2& odom_from_b
   const Pose2 continuous_from_base = last.continuous_from_base * motion;
   if (reset) odom_from_continuous_ = odom_from_base * continuous_from_base.Inverse();
   readings_.push_back({stamp, continuous_from_base});
+  period_ = period_ == 0.0 ? dt : period_ + 0.05 * (std::min(dt, 10.0 * period_) - period_);
   last_odom_from_base_ = odom_from_base;
   while (readings_.size() > 2 && Seconds(stamp - readings_.front().stamp) > options_.history) {
     readings_.pop_front();
@@ -80,7 +79,7 @@ std::optional<Pose2> OdometryBuffer::ContinuousPose(Stamp stamp) const {
     if (readings_.size() < 2 || ahead == 0.0) return newest.continuous_from_base;
     const Reading& before = readings_[readings_.size() - 2];
     return Interpolate(before.continuous_from_base, newest.continuous_from_base,
-                       1.0 + ahead / Seconds(newest.stamp - before.stamp));
+                       1.0 + ahead / TimeBetween(before, newest));
   }
   const auto after =
       std::upper_bound(readings_.begin(), readings_.end(), stamp,
@@ -96,6 +95,13 @@ std::optional<Pose2> OdometryBuffer::OdomFromBase(Stamp stamp) const {
   return odom_from_continuous_ * *pose;
 }
 
-void OdometryBuffer::Clear() { readings_.clear(); }
+double OdometryBuffer::TimeBetween(const Reading& a, const Reading& b) const {
+  return std::max(Seconds(b.stamp - a.stamp), period_);
+}
+
+void OdometryBuffer::Clear() {
+  readings_.clear();
+  period_ = 0.0;
+}
 
 }  // namespace scan_image_slam

@@ -102,8 +102,7 @@ TEST(FitLine, PointsThatCoincideHaveNoNormal) {
   EXPECT_EQ(line.spread, 0.0);
 }
 
-// Disabled: the sums round, so that a normal is made of the rounding errors.
-TEST(FitLine, DISABLED_PointsThatCoincideHaveNoNormalWhereverTheyAre) {
+TEST(FitLine, PointsThatCoincideHaveNoNormalWhereverTheyAre) {
   Dice dice;
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector2d p(dice.Between(-5, 5), dice.Between(-5, 5));

@@ -98,8 +98,7 @@ TEST(CameraIntrinsics, ACameraIsNotMadeOfWrongOnes) {
   EXPECT_THROW(CameraModel{intrinsics}, std::invalid_argument);
 }
 
-// Disabled: the header says that an empty D means no distortion, but only plumb_bob accepts it.
-TEST(CameraIntrinsics, DISABLED_NoCoefficientsAreNoDistortionForEveryLens) {
+TEST(CameraIntrinsics, NoCoefficientsAreNoDistortionForEveryLens) {
   EXPECT_TRUE(Accepts("rational_polynomial", 0));
   EXPECT_TRUE(Accepts("equidistant", 0));
 }

@@ -158,13 +158,5 @@ TEST(CameraModel, RayIsTheInverseOfProjectAllOverThePicture) {
   }
 }
 
-// Disabled: rays go through the plane at distance 1, so those of a fisheye end at 90 degrees.
-TEST(CameraModel, DISABLED_AFisheyeSeesMoreThanAHalfSphere) {
-  CameraIntrinsics intrinsics = Camera("equidistant", {0.0, 0.0, 0.0, 0.0});
-  intrinsics.k = cv::Matx33d(200, 0, 320, 0, 200, 240, 0, 0, 1);
-  const Eigen::Vector3d ray = CameraModel(intrinsics).Ray(0.0, 240.0);  // 320 / 200 = 1.6 rad
-  EXPECT_NEAR((ray - Eigen::Vector3d(-std::sin(1.6), 0.0, std::cos(1.6))).norm(), 0.0, 1e-6);
-}
-
 }  // namespace
 }  // namespace scan_image_slam

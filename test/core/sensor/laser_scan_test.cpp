@@ -52,13 +52,11 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{-kInfinity, BeamReturn::kUnknown},      // REP-117: too near
                       Case{std::nan(""), BeamReturn::kUnknown}));  // REP-117: error
 
-// Disabled: with range_min 0 a range of zero is taken for an obstacle at the laser.
-TEST(Classify, DISABLED_ZeroIsUnknownWhateverTheLimits) {
+TEST(Classify, ZeroIsUnknownWhateverTheLimits) {
   EXPECT_EQ(Classify(0.0, 0.0, 30.0), BeamReturn::kUnknown);
 }
 
-// Disabled: drivers may say that range_max is infinite, and then +Inf is taken for an obstacle.
-TEST(Classify, DISABLED_InfinityIsNoObjectWhateverTheLimits) {
+TEST(Classify, InfinityIsNoObjectWhateverTheLimits) {
   EXPECT_EQ(Classify(kInfinity, 0.1, kInfinity), BeamReturn::kNoObject);
 }
 

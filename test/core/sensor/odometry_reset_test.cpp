@@ -133,8 +133,7 @@ TEST(OdometryReset, AfterClearTheFrameIsThatOfTheReadings) {
   ExpectPoseNear(*buffer.ContinuousPose(At(0.0)), {1.0, 2.0, 0.5});
 }
 
-// Disabled: Clear keeps the usual period, so that the readings of a faster base are judged by it.
-TEST(OdometryReset, DISABLED_ClearForgetsTheUsualPeriod) {
+TEST(OdometryReset, ClearForgetsTheUsualPeriod) {
   OdometryBuffer buffer(Limits());
   buffer.Add(At(0.0), {});
   buffer.Add(At(1.0), {});  // once a second

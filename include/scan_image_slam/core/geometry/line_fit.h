@@ -46,7 +46,9 @@ inline Line FitLine(const PointSums& s) {
                                     ? Eigen::Vector2d(root + half_difference, cxy)
                                     : Eigen::Vector2d(cxy, root - half_difference);
   const double length = along.norm();
-  if (length > 0.0) line.normal = Eigen::Vector2d(-along.y(), along.x()) / length;
+  constexpr double kRounding = 1e-12;  // of the sums
+  if (length > kRounding * (s.xx + s.yy))
+    line.normal = Eigen::Vector2d(-along.y(), along.x()) / length;
   return line;
 }
 

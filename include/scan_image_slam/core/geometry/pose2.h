@@ -6,7 +6,7 @@
 
 namespace scan_image_slam {
 
-/// The same angle in (-pi, pi] [rad].
+/// The same angle in (-pi, pi] [rad]; NaN if it is not finite.
 double NormalizeAngle(double angle);
 
 /// Rigid motion in the plane, named target_from_source: maps points of `source` into `target`.

@@ -21,7 +21,8 @@ struct CameraIntrinsics {
   void Validate() const;
 };
 
-/// Where points in front of a camera are seen.
+/// Where points in front of a camera are seen. A lens that sees more than 180 degrees is used for
+/// what is in front of it.
 class CameraModel {
  public:
   /// Throws as CameraIntrinsics::Validate.

@@ -24,13 +24,13 @@ struct LaserScan {
 
 /// What one range says, by REP-117.
 enum class BeamReturn {
-  kHit,       ///< range_min <= range <= range_max: an obstacle
+  kHit,       ///< range_min <= range <= range_max, finite and not zero: an obstacle
   kNoObject,  ///< +Inf or beyond range_max: nothing within reach
   kUnknown,   ///< NaN, -Inf, zero or below range_min: error, too near, or a driver's "no return"
 };
 inline BeamReturn Classify(double range, double range_min, double range_max) {
-  if (range_min <= range && range <= range_max) return BeamReturn::kHit;  // false for NaN
-  return range > range_max ? BeamReturn::kNoObject : BeamReturn::kUnknown;
+  if (range > range_max || (std::isinf(range) && range > 0.0)) return BeamReturn::kNoObject;
+  return range > 0.0 && range >= range_min ? BeamReturn::kHit : BeamReturn::kUnknown;
 }
 
 }  // namespace scan_image_slam

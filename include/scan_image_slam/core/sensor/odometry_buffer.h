@@ -50,6 +50,9 @@ class OdometryBuffer {
     Stamp stamp;
     Pose2 continuous_from_base;
   };
+  /// Between two successive readings, to make a velocity: readings that were delayed on their way
+  /// come close together, and are taken to lie the usual period apart [s].
+  double TimeBetween(const Reading& a, const Reading& b) const;
 
   OdometryOptions options_;
   std::deque<Reading> readings_;
