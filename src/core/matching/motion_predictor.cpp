@@ -48,6 +48,11 @@ MotionPredictor::MotionPredictor(const MotionPredictorOptions& options)
     : options_(options), odometry_(options.odometry) {
   options_.bounds.Validate();
   options_.noise.Validate();
+  const double lateral = options_.lateral_per_distance_without_encoders;
+  if (!(std::isfinite(lateral) && lateral >= 0.0)) {
+    throw std::invalid_argument(
+        "lateral_per_distance_without_encoders must be finite and not negative");
+  }
 }
 
 MotionPrediction MotionPredictor::Predict(Stamp stamp) const {
@@ -79,7 +84,7 @@ void MotionPredictor::Update(Stamp stamp, const Pose2& matched_motion) {
   if (last_stamp_) {
     constexpr double kAdaption = 0.02;
     const double dt = Seconds(stamp - *last_stamp_);
-    velocity_ = VelocityOf(matched_motion, dt);
+    velocity_ = VelocityOf(matched_motion, std::max(dt, period_));  // stamps may jitter
     period_ = period_ == 0.0 ? dt : period_ + kAdaption * (std::min(dt, 3.0 * period_) - period_);
   }
   last_stamp_ = stamp;
