@@ -48,6 +48,9 @@ Extent FindExtent(const CameraModel& camera, const Eigen::Isometry3d& base_from_
       first = false;
     }
   }
+  if (first) {
+    throw std::invalid_argument("the camera sees nothing but steep rays: no walls in view");
+  }
   return extent;
 }
 

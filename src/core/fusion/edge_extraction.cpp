@@ -34,7 +34,6 @@ void MaskOutside(const RegionOfInterest& region, const cv::Mat& seen, cv::Mat* s
 }
 
 Run Summarise(const EdgeChain& chain, const EdgePixels& pixels) {
-  constexpr double kSobelGain = 4.0;  // response of the 3x3 kernel to a step of one grey level
   Run run;
   run.sign = chain.sign;
   run.strength = chain.Strength();
@@ -46,7 +45,7 @@ Run Summarise(const EdgeChain& chain, const EdgePixels& pixels) {
     const double column = SubpixelColumn(pixels, p);
     sum += column;
     squares += column * column;
-    run.contrast += std::abs(pixels.gradient.at<std::int16_t>(p)) / kSobelGain;
+    run.contrast += std::abs(pixels.gradient.at<std::int16_t>(p)) / kStepGain;
     run.top = std::min(run.top, p.y);
     run.bottom = std::max(run.bottom, p.y);
   }
@@ -118,10 +117,11 @@ RegionOfInterest MakeRegionOfInterest(const SurfaceProfile& profile, const Beari
   for (int c = 0; c < image.columns(); ++c) {
     const double distance = profile.columns[c].distance;
     if (distance <= 0.0) continue;
-    region.top[c] =
-        static_cast<int>(std::clamp(image.Row(above / distance), 0.0, image.rows() - 1.0));
-    region.bottom[c] =
-        static_cast<int>(std::clamp(image.Row(below / distance), -1.0, image.rows() - 1.0));
+    const auto row_of = [&](double height, double first, double last) {
+      return static_cast<int>(std::floor(std::clamp(image.Row(height / distance), first, last)));
+    };
+    region.top[c] = row_of(above, 0.0, image.rows());
+    region.bottom[c] = row_of(below, -1.0, image.rows() - 1.0);
     if (region.bottom[c] < region.top[c]) continue;
     region.begin = std::min(region.begin, region.top[c]);
     region.end = std::max(region.end, region.bottom[c] + 1);
@@ -147,6 +147,7 @@ std::vector<ImageEdge> ExtractEdges(const cv::Mat& grey, const BearingImage& ima
         std::clamp(static_cast<int>(std::lround(edge.column)), 0, image.columns() - 1);
     const double rows = 0.5 * edge.strength;
     const double metres = rows * image.step() * profile.columns[column].distance;
+    if (profile.columns[column].distance <= 0.0) continue;  // beside the surface it was seen on
     if (rows < options.min_edge_rows || metres < options.min_edge_length) continue;
     edge.weight = std::min(1.0, rows / (region.bottom[column] - region.top[column] + 1));
     edge.top += region.begin;

@@ -68,7 +68,6 @@ double VerticalWeight(const DirectionHistogram& h) {
 }
 
 EdgePixels FindEdgePixels(const cv::Mat& grey, double threshold) {
-  constexpr double kSobelGain = 4.0;  // response of the 3x3 kernel to a step of one grey level
   cv::Mat smooth;
   cv::Mat dx;
   cv::Mat dy;
@@ -76,7 +75,7 @@ EdgePixels FindEdgePixels(const cv::Mat& grey, double threshold) {
   cv::Sobel(smooth, dx, CV_16S, 1, 0);
   cv::Sobel(smooth, dy, CV_16S, 0, 1);
   cv::Mat canny;
-  cv::Canny(dx, dy, canny, 0.5 * kSobelGain * threshold, kSobelGain * threshold, true);
+  cv::Canny(dx, dy, canny, 0.5 * kStepGain * threshold, kStepGain * threshold, true);
   EdgePixels edges;
   edges.gradient = dx;
   edges.sign = cv::Mat::zeros(grey.size(), CV_8S);

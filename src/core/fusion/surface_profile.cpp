@@ -1,7 +1,10 @@
 #include "scan_image_slam/core/fusion/surface_profile.h"
 
+#include "scan_image_slam/core/fusion/beam_spacing.h"
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace scan_image_slam {
 namespace {
@@ -15,13 +18,8 @@ constexpr int kReachOver = 2;
 /// Surfaces whose distances differ by less are the same [m].
 constexpr double kSameSurface = 0.1;
 
-bool Connected(const FusedModel& model, int a, int b) {
-  if (b - a > 1 + kMaxMissingBeams) return false;
-  const ModelBeam& first = model.beams[a];
-  const ModelBeam& second = model.beams[b];
-  const double across =
-      std::min(first.range, second.range) * std::abs(second.bearing - first.bearing);
-  return std::abs(second.range - first.range) <= kMaxSlope * across;
+bool Connected(const ModelBeam& a, const ModelBeam& b) {
+  return std::abs(b.range - a.range) <= kMaxSlope * std::min(a.range, b.range) * AngleBetween(a, b);
 }
 
 class ProfileBuilder {
@@ -49,6 +47,20 @@ class ProfileBuilder {
       if (denominator == 0.0) continue;
       Offer(c, cross / denominator, std::abs(c - ca) < std::abs(c - cb) ? a : b);
     }
+  }
+
+  /// Between the hits of two beams on different surfaces the nearer one ends, nobody knows where:
+  /// an edge there is its border. Seen from aside the gap may be wider than `max_angle` [rad], and
+  /// then there may be anything in it.
+  void AddGap(int a, int b, double max_angle) {
+    if ((points_[b] - centre_).norm() < (points_[a] - centre_).norm()) std::swap(a, b);
+    const Eigen::Vector2d near = points_[a] - centre_;
+    const double ca = ColumnOf(near);
+    const double cb = ColumnOf(points_[b] - centre_);
+    if (std::abs(ca - cb) * image_.step() > max_angle) return;
+    const int begin = std::max(0, static_cast<int>(std::ceil(std::min(ca, cb))));
+    const int end = std::min(image_.columns() - 1, static_cast<int>(std::floor(std::max(ca, cb))));
+    for (int c = begin; c <= end; ++c) Offer(c, near.norm(), a);
   }
 
   /// A hit that stands alone covers its own column.
@@ -98,13 +110,25 @@ SurfaceProfile MakeSurfaceProfile(const FusedModel& model,
                                   const std::vector<Eigen::Vector2d>& points,
                                   const BearingImage& image) {
   ProfileBuilder builder(points, image);
+  const double max_angle = (kMaxMissingBeams + 1.5) * BeamSpacing(model.beams);
+  const auto join = [&](int a, int b) {
+    if (AngleBetween(model.beams[a], model.beams[b]) > max_angle) return;
+    if (Connected(model.beams[a], model.beams[b])) {
+      builder.AddSegment(a, b);
+    } else {
+      builder.AddGap(a, b, max_angle);
+    }
+  };
+  int first = -1;
   int previous = -1;
   for (int i = 0; i < static_cast<int>(model.beams.size()); ++i) {
     if (!model.beams[i].hit()) continue;
     builder.AddPoint(i);
-    if (previous >= 0 && Connected(model, previous, i)) builder.AddSegment(previous, i);
+    if (previous >= 0) join(previous, i);
+    if (first < 0) first = i;
     previous = i;
   }
+  if (previous > first) join(previous, first);  // a full turn has no seam
   return builder.Finish();
 }
 

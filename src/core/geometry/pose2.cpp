@@ -65,6 +65,10 @@ Velocity2 operator+(const Velocity2& a, const Velocity2& b) {
   return {a.x + b.x, a.y + b.y, a.theta + b.theta};
 }
 
+Velocity2 operator-(const Velocity2& a, const Velocity2& b) {
+  return {a.x - b.x, a.y - b.y, a.theta - b.theta};
+}
+
 Pose2 Move(const Velocity2& velocity, double dt) {
   const double angle = velocity.theta * dt;
   const Chord chord = UnitChord(angle);

@@ -20,6 +20,13 @@ std::uint8_t Grey(std::int8_t occupancy) {
   return occupancy <= kFree ? 254 : 205;
 }
 
+/// A single-quoted scalar of YAML, which may hold any printable character.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "''" : std::string(1, c);
+  return quoted + "'";
+}
+
 void WriteFile(const std::string& path, const std::string& content) {
   std::ofstream file(path, std::ios::binary);
   file << content;
@@ -55,6 +62,13 @@ MapImage ToMapImage(const OccupancyGrid& grid) {
 }
 
 std::string WriteMap(const MapImage& map, const std::string& stem) {
+  if (map.occupancy.empty()) {
+    MapImage unknown = map;
+    unknown.width = 1;
+    unknown.height = 1;
+    unknown.occupancy = {-1};
+    return WriteMap(unknown, stem);
+  }
   std::string pixels;
   pixels.reserve(map.occupancy.size());
   for (int row = map.height - 1; row >= 0; --row) {  // pictures start at the top
@@ -69,7 +83,7 @@ std::string WriteMap(const MapImage& map, const std::string& stem) {
   yaml.imbue(std::locale::classic());
   yaml << std::setprecision(10);
   const std::string name = stem.substr(stem.find_last_of('/') + 1);
-  yaml << "image: " << name << ".pgm\nresolution: " << map.resolution << "\norigin: ["
+  yaml << "image: " << Quoted(name + ".pgm") << "\nresolution: " << map.resolution << "\norigin: ["
        << map.origin_x << ", " << map.origin_y << ", 0.0]\nnegate: 0\noccupied_thresh: 0.65\n"
        << "free_thresh: 0.196\n";
   WriteFile(stem + ".yaml", yaml.str());

@@ -14,7 +14,10 @@ int StepsToBorder(double half, double step) {
   return half > 0.0 ? static_cast<int>(std::ceil(half / step)) : 0;
 }
 
-double At(double half, int index, int steps) { return steps == 0 ? 0.0 : half * index / steps; }
+/// The fraction first: it is exactly one at the border.
+double At(double half, int index, int steps) {
+  return steps == 0 ? 0.0 : half * (static_cast<double>(index) / steps);
+}
 
 }  // namespace
 

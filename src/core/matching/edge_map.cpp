@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -10,15 +11,42 @@ namespace {
 
 Eigen::Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
-/// What an image says of where an edge is, in the base frame: exact across the line of sight, as
-/// good as the surface along it.
-Eigen::Matrix2d CovarianceOf(const ModelEdge& edge, double surface_stddev) {
-  const Eigen::Vector2d along = Direction(edge.bearing);
-  const Eigen::Vector2d across(-along.y(), along.x());
+Eigen::Vector2d Across(const Eigen::Vector2d& ray) { return {-ray.y(), ray.x()}; }
+
+/// A landmark where an image saw an edge: exact across the line of sight, as good as the surface
+/// along it.
+EdgeLandmark StartLandmark(const ModelEdge& edge, const RigidTransform2& map_from_base,
+                           double surface_stddev) {
+  const Eigen::Vector2d along = map_from_base.Rotate(Direction(edge.bearing));
+  const Eigen::Vector2d across = Across(along);
   const double sigma_along = std::hypot(edge.range_stddev, surface_stddev);
   const double sigma_across = edge.bearing_stddev * edge.range;
-  return sigma_along * sigma_along * along * along.transpose() +
-         sigma_across * sigma_across * across * across.transpose();
+  EdgeLandmark landmark;
+  landmark.position = map_from_base * edge.point();
+  landmark.covariance = sigma_along * sigma_along * along * along.transpose() +
+                        sigma_across * sigma_across * across * across.transpose();
+  landmark.sign = edge.sign;
+  return landmark;
+}
+
+/// The image measures one number: how far the landmark is off the line of sight. Nothing if that
+/// is farther than it can be.
+std::optional<EdgeLandmark> RefineLandmark(EdgeLandmark landmark, const ModelEdge& edge,
+                                           const RigidTransform2& map_from_base,
+                                           const Eigen::Matrix3d& pose_covariance) {
+  const Eigen::Vector2d n = Across(Direction(edge.bearing));
+  const Eigen::Vector2d p = edge.point();
+  const Eigen::Vector3d by_pose(n.x(), n.y(), p.x() * n.y() - p.y() * n.x());
+  const double measured =
+      std::pow(edge.bearing_stddev * edge.range, 2) + by_pose.dot(pose_covariance * by_pose);
+  const Eigen::Vector2d across = map_from_base.Rotate(n);
+  const Eigen::Vector2d cross = landmark.covariance * across;
+  const double innovation_variance = across.dot(cross) + measured;
+  const double innovation = across.dot(map_from_base * p - landmark.position);
+  if (innovation * innovation > 9.0 * innovation_variance) return std::nullopt;
+  landmark.position += cross * (innovation / innovation_variance);
+  landmark.covariance -= cross * cross.transpose() / innovation_variance;
+  return landmark;
 }
 
 }  // namespace
@@ -51,24 +79,23 @@ std::vector<ModelEdge> DistinctEdges(const std::vector<ModelEdge>& edges,
   return distinct;
 }
 
-EdgeMap::EdgeMap(const EdgeMapOptions& options)
-    : options_(options),
-      positive_(0.5 * options.gate, 2.0 * options.gate),
-      negative_(0.5 * options.gate, 2.0 * options.gate) {
-  options_.Validate();
-}
+EdgeMap::EdgeMap(const EdgeMapOptions& options) : options_(options) { options_.Validate(); }
 
-int EdgeMap::FindId(const ModelEdge& edge, const RigidTransform2& map_from_base) const {
-  const Eigen::Vector2d place = map_from_base * edge.point();
-  const int id = FieldOf(edge.sign).Nearest(place);
-  if (id < 0) return -1;
-  const Eigen::Vector2d offset = landmarks_[id].position - place;
-  return offset.norm() <= options_.gate ? id : -1;
+int EdgeMap::NearestId(const Eigen::Vector2d& place, int sign, double reach) const {
+  int nearest = -1;
+  double least = reach * reach;
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    const double squared = (landmarks_[i].position - place).squaredNorm();
+    if (squared > least || landmarks_[i].sign != sign) continue;
+    least = squared;
+    nearest = static_cast<int>(i);
+  }
+  return nearest;
 }
 
 const EdgeLandmark* EdgeMap::Find(const ModelEdge& edge,
                                   const RigidTransform2& map_from_base) const {
-  const int id = FindId(edge, map_from_base);
+  const int id = NearestId(map_from_base * edge.point(), edge.sign, options_.gate);
   return id < 0 ? nullptr : &landmarks_[id];
 }
 
@@ -76,59 +103,26 @@ void EdgeMap::Insert(const std::vector<ModelEdge>& edges, const Pose2& map_from_
                      const Eigen::Matrix3d& covariance, double way) {
   const RigidTransform2 transform(map_from_base);
   for (const ModelEdge& edge : edges) {
-    const int id = FindId(edge, transform);
-    const Eigen::Vector2d ray = transform.Rotate(Direction(edge.bearing));
-    const Eigen::Vector2d across(-ray.y(), ray.x());
-    if (id >= 0) {
-      // The image measures one number: how far the landmark is off the line of sight.
-      EdgeLandmark& landmark = landmarks_[id];
-      const Eigen::Vector2d n(-std::sin(edge.bearing), std::cos(edge.bearing));
-      const Eigen::Vector2d p = edge.point();
-      const Eigen::Vector3d by_pose(n.x(), n.y(), p.x() * n.y() - p.y() * n.x());
-      const double measured =
-          std::pow(edge.bearing_stddev * edge.range, 2) + by_pose.dot(covariance * by_pose);
-      const Eigen::Vector2d cross = landmark.covariance * across;
-      const double innovation_variance = across.dot(cross) + measured;
-      const double innovation = across.dot(transform * p - landmark.position);
-      if (innovation * innovation > 9.0 * innovation_variance) continue;
-      landmark.position += cross * (innovation / innovation_variance);
-      landmark.covariance -= cross * cross.transpose() / innovation_variance;
-      ++landmark.hits;
-      landmark.last_seen = way;
-      continue;
-    }
     const Eigen::Vector2d place = transform * edge.point();
-    const int neighbour = FieldOf(edge.sign).Nearest(place);
-    if (neighbour >= 0 &&
-        (landmarks_[neighbour].position - place).norm() < options_.min_separation) {
-      continue;
+    int id = NearestId(place, edge.sign, options_.gate);
+    if (id >= 0) {
+      const auto refined = RefineLandmark(landmarks_[id], edge, transform, covariance);
+      if (!refined) continue;
+      landmarks_[id] = *refined;
+    } else {
+      if (NearestId(place, edge.sign, options_.min_separation) >= 0) continue;
+      id = static_cast<int>(landmarks_.size());
+      landmarks_.push_back(StartLandmark(edge, transform, options_.surface_stddev));
     }
-    EdgeLandmark landmark;
-    landmark.position = place;
-    const Eigen::Matrix2d in_base = CovarianceOf(edge, options_.surface_stddev);
-    Eigen::Matrix2d rotation;
-    rotation << std::cos(map_from_base.theta), -std::sin(map_from_base.theta),
-        std::sin(map_from_base.theta), std::cos(map_from_base.theta);
-    landmark.covariance = rotation * in_base * rotation.transpose();
-    landmark.sign = edge.sign;
-    landmark.hits = 1;
-    landmark.last_seen = way;
-    (edge.sign > 0 ? positive_ : negative_).Insert(static_cast<int>(landmarks_.size()), place);
-    landmarks_.push_back(landmark);
+    ++landmarks_[id].hits;
+    landmarks_[id].last_seen = way;
   }
 }
 
 void EdgeMap::ForgetBefore(double way) {
-  const auto forgotten = std::remove_if(landmarks_.begin(), landmarks_.end(),
-                                        [&](const auto& e) { return e.last_seen < way; });
-  if (forgotten == landmarks_.end()) return;
-  landmarks_.erase(forgotten, landmarks_.end());
-  positive_.Clear();
-  negative_.Clear();
-  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-    NearestField& field = landmarks_[i].sign > 0 ? positive_ : negative_;
-    field.Insert(static_cast<int>(i), landmarks_[i].position);
-  }
+  landmarks_.erase(std::remove_if(landmarks_.begin(), landmarks_.end(),
+                                  [&](const auto& e) { return e.last_seen < way; }),
+                   landmarks_.end());
 }
 
 }  // namespace scan_image_slam

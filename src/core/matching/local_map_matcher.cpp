@@ -28,6 +28,15 @@ std::vector<Eigen::Vector2d> SearchPoints(const std::vector<SurfacePoint>& point
   return ordered;
 }
 
+/// The velocity that makes up the motion found `dt` seconds after the last scan. The motion is not
+/// that between the stamps alone: the beams were fired later, half a sweep in the mean.
+Velocity2 VelocityOverSweep(const Pose2& motion, double dt,
+                            const std::vector<SurfacePoint>& points) {
+  double late = 0.0;
+  for (const SurfacePoint& p : points) late += p.time_offset / static_cast<double>(points.size());
+  return VelocityOf(motion, std::max(0.5 * dt, dt + late));
+}
+
 /// True if a wrong velocity displaces the sweep by more than a fraction of the laser's precision.
 bool MattersForSweep(const Velocity2& velocity, const std::vector<SurfacePoint>& points) {
   constexpr double kAngle = 0.001;     // [rad]
@@ -80,7 +89,7 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
   const std::vector<ModelEdge> edges = DistinctEdges(model.edges, options_.edge_map);
   MatchOutcome outcome;
   if (!prediction.from_encoders) {
-    outcome.sweep_correction = VelocityOf(prediction.motion, prediction.dt);
+    outcome.sweep_correction = VelocityOf(prediction.motion, prediction.dt) - model.sweep_velocity;
     points = CorrectSweep(std::move(points), outcome.sweep_correction);
   }
   const Pose2 map_from_predicted = map_from_last * prediction.motion;
@@ -95,8 +104,8 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
                   options_.refinement);
   };
   Refinement refined = refine_from(map_from_predicted * FromArcCoordinates(found.deviation));
-  const Velocity2 error =
-      VelocityOf(map_from_predicted.Inverse() * refined.map_from_base, prediction.dt);
+  const Velocity2 error = VelocityOverSweep(map_from_predicted.Inverse() * refined.map_from_base,
+                                            prediction.dt, points);
   if (MattersForSweep(error, points)) {
     points = CorrectSweep(std::move(points), error);
     outcome.sweep_correction = outcome.sweep_correction + error;

@@ -65,6 +65,11 @@ MotionPredictor::MotionPredictor(const MotionPredictorOptions& options)
     : options_(options), odometry_(options.odometry) {
   options_.bounds.Validate();
   options_.noise.Validate();
+  const double lateral = options_.lateral_per_distance_without_encoders;
+  if (!(std::isfinite(lateral) && lateral >= 0.0)) {
+    throw std::invalid_argument(
+        "lateral_per_distance_without_encoders must be finite and not negative");
+  }
 }
 
 MotionPrediction MotionPredictor::Predict(Stamp stamp) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -16,6 +17,12 @@ namespace {
 struct NormalEquations {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+
+  NormalEquations& operator+=(const NormalEquations& other) {
+    information += other.information;
+    gradient += other.gradient;
+    return *this;
+  }
 };
 
 /// Weight of Cauchy's kernel: 1 for small residuals, 1/2 at `kernel` standard deviations.
@@ -78,11 +85,16 @@ ScanTerm SumOverPoints(const std::vector<SurfacePoint>& points, const LocalMap& 
   return term;
 }
 
-/// Adds the edges: residual is how far the landmark lies off the line of sight.
-int AddEdges(const std::vector<ModelEdge>& edges, const EdgeMap& map, const Pose2& map_from_base,
-             const RefinementOptions& options, NormalEquations* equations) {
-  const RigidTransform2 transform(map_from_base);
+struct EdgeTerm {
+  NormalEquations equations;
   int matched = 0;
+};
+
+/// Sums over the edges: residual is how far the landmark lies off the line of sight.
+EdgeTerm SumOverEdges(const std::vector<ModelEdge>& edges, const EdgeMap& map,
+                      const Pose2& map_from_base, const RefinementOptions& options) {
+  const RigidTransform2 transform(map_from_base);
+  EdgeTerm term;
   for (const ModelEdge& edge : edges) {
     const EdgeLandmark* landmark = map.Find(edge, transform);
     if (landmark == nullptr) continue;
@@ -95,45 +107,37 @@ int AddEdges(const std::vector<ModelEdge>& edges, const EdgeMap& map, const Pose
     const double w = CauchyWeight(residual * residual, variance, options.kernel) /
                      (variance * options.edge_correlation);
     const Eigen::Vector3d jacobian(n.x(), n.y(), p.x() * n.y() - p.y() * n.x());
-    equations->information += w * jacobian * jacobian.transpose();
-    equations->gradient += w * residual * jacobian;
-    ++matched;
+    term.equations.information += w * jacobian * jacobian.transpose();
+    term.equations.gradient += w * residual * jacobian;
+    ++term.matched;
   }
-  return matched;
+  return term;
 }
 
-struct Degeneracy {
-  bool found = false;
-  Eigen::Vector2d direction{1, 0};
-};
-
-/// A direction in which the scan says next to nothing compared to the one across it, as along a
-/// plain corridor. What little is there is noise of the normals, so it is taken out.
-Degeneracy RemoveWeakDirection(double ratio, NormalEquations* equations) {
-  Degeneracy degeneracy;
-  const Eigen::Matrix3d& h = equations->information;
-  if (h(2, 2) <= 0.0) return degeneracy;
+/// The direction that is known so much worse than the one across it, as along a plain corridor.
+std::optional<Eigen::Vector2d> WeakDirection(const Eigen::Matrix3d& h, double ratio) {
+  if (h(2, 2) <= 0.0) return std::nullopt;
   const Eigen::Matrix2d translation =
       h.topLeftCorner<2, 2>() - h.topRightCorner<2, 1>() * h.bottomLeftCorner<1, 2>() / h(2, 2);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(translation);
-  if (eigen.eigenvalues()(0) >= ratio * eigen.eigenvalues()(1)) return degeneracy;
-  degeneracy.found = true;
-  degeneracy.direction = eigen.eigenvectors().col(0);
-  Eigen::Matrix3d project = Eigen::Matrix3d::Identity();
-  project.topLeftCorner<2, 2>() -= degeneracy.direction * degeneracy.direction.transpose();
-  equations->information = (project * equations->information * project).eval();
-  equations->gradient = (project * equations->gradient).eval();
-  return degeneracy;
+  if (eigen.eigenvalues()(0) >= ratio * eigen.eigenvalues()(1)) return std::nullopt;
+  return eigen.eigenvectors().col(0);
 }
 
-void AddPrior(const MotionPrior& prior, const Eigen::Matrix3d& prior_information,
-              const Pose2& map_from_base, NormalEquations* equations) {
+/// Takes out what is said about a direction.
+NormalEquations Without(const Eigen::Vector2d& direction, const NormalEquations& equations) {
+  Eigen::Matrix3d project = Eigen::Matrix3d::Identity();
+  project.topLeftCorner<2, 2>() -= direction * direction.transpose();
+  return {project * equations.information * project, project * equations.gradient};
+}
+
+NormalEquations PriorTerm(const MotionPrior& prior, const Eigen::Matrix3d& prior_information,
+                          const Pose2& map_from_base) {
   const Pose2 deviation = prior.map_from_base.Inverse() * map_from_base;
   const Eigen::Vector3d d(deviation.x, deviation.y, deviation.theta);
   const double squared = d.dot(prior_information * d);
   const Eigen::Matrix3d weighted = CauchyWeight(squared, 1.0, prior.kernel) * prior_information;
-  equations->information += weighted;
-  equations->gradient += weighted * d;
+  return {weighted, weighted * d};
 }
 
 }  // namespace
@@ -148,6 +152,10 @@ void RefinementOptions::Validate() const {
   require(model_stddev > 0.0, "model_stddev must be positive");
   require(kernel > 0.0, "kernel must be positive");
   require(correlation >= 1.0, "correlation must be at least 1");
+  require(edge_correlation >= 1.0, "edge_correlation must be at least 1");
+  require(std::abs(min_normal_cosine) <= 1.0, "min_normal_cosine must be between -1 and 1");
+  require(degenerate_ratio >= 0.0 && degenerate_ratio <= 1.0,
+          "degenerate_ratio must be between 0 and 1");
 }
 
 Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
@@ -160,21 +168,28 @@ Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
   Refinement result;
   result.map_from_base = start;
   result.covariance = prior.covariance;
-  for (int i = 0; i < options.max_iterations; ++i) {
+  for (int i = 0; i <= options.max_iterations; ++i) {
     const double gate = i < kWideIterations ? 2.0 * options.gate : options.gate;
-    ScanTerm term = SumOverPoints(points, map, noise, result.map_from_base, options, gate);
-    const Degeneracy degeneracy = RemoveWeakDirection(options.degenerate_ratio, &term.equations);
-    NormalEquations equations = term.equations;
-    result.matched_edges = AddEdges(edges, edge_map, result.map_from_base, options, &equations);
+    const Pose2 pose = result.map_from_base;
+    const ScanTerm scan = SumOverPoints(points, map, noise, pose, options, gate);
+    const EdgeTerm edge = SumOverEdges(edges, edge_map, pose, options);
+    NormalEquations equations = scan.equations;
+    const auto weak = WeakDirection(equations.information, options.degenerate_ratio);
+    // What little the scan says of it is noise of the normals.
+    if (weak) equations = Without(*weak, equations);
+    equations += edge.equations;
     result.information = equations.information;
-    AddPrior(prior, prior_information, result.map_from_base, &equations);
-    const Eigen::Vector3d step = -equations.information.ldlt().solve(equations.gradient);
-    result.map_from_base = result.map_from_base * Pose2{step.x(), step.y(), step.z()};
+    result.degenerate =
+        weak && WeakDirection(equations.information, options.degenerate_ratio).has_value();
+    result.degenerate_direction = weak ? std::atan2(weak->y(), weak->x()) : 0.0;
+    equations += PriorTerm(prior, prior_information, pose);
+    result.matched = scan.matched;
+    result.matched_edges = edge.matched;
+    result.rms = scan.weights > 0.0 ? std::sqrt(scan.weighted_squares / scan.weights) : 0.0;
+    if (i == options.max_iterations) break;
     result.covariance = equations.information.inverse();
-    result.matched = term.matched;
-    result.rms = term.weights > 0.0 ? std::sqrt(term.weighted_squares / term.weights) : 0.0;
-    result.degenerate = degeneracy.found;
-    result.degenerate_direction = std::atan2(degeneracy.direction.y(), degeneracy.direction.x());
+    const Eigen::Vector3d step = -equations.information.ldlt().solve(equations.gradient);
+    result.map_from_base = pose * Pose2{step.x(), step.y(), step.z()};
     if (i >= kWideIterations && step.cwiseAbs().maxCoeff() < kSmallStep) break;
   }
   return result;

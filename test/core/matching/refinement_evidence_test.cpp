@@ -132,9 +132,7 @@ TEST(RefineEvidence, EdgesTellTheWayAlongACorridor) {
   EXPECT_NEAR(result.map_from_base.y, 0.05, 1e-3);
 }
 
-// Disabled: degeneracy is looked for before the edges are added, so that a direction that they
-// supply is still reported as left to the prior.
-TEST(RefineEvidence, DISABLED_IsNotDegenerateWhereEdgesTellTheWay) {
+TEST(RefineEvidence, IsNotDegenerateWhereEdgesTellTheWay) {
   RefinementProblem problem = CorridorWithEdges({0.3, 0.0, 0.0});
   problem.prior.map_from_base = {0.25, 0.0, 0.0};
   EXPECT_FALSE(problem.From(problem.prior.map_from_base).degenerate);
@@ -235,8 +233,7 @@ TEST(RefinementOptions, AreRefusedByName) {
   EXPECT_EQ(Complaint(RefinementOptions()), "");
 }
 
-// Disabled: Validate does not look at these fields, although its doc says so of all.
-TEST(RefinementOptions, DISABLED_AreRefusedByNameInEachField) {
+TEST(RefinementOptions, AreRefusedByNameInEachField) {
   for (const NamedOption& named :
        {NamedOption{"edge_correlation", &RefinementOptions::edge_correlation},
         NamedOption{"min_normal_cosine", &RefinementOptions::min_normal_cosine},

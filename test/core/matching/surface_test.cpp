@@ -168,10 +168,7 @@ TEST(EstimateSurface, TakesOneSideOfACornerForAPreciseLaser) {
   EXPECT_LT(CornerSmear(0.002, 0.02), 0.025);
 }
 
-// Disabled: a line across a right-angled corner scatters by at most 0.03 m (a^2 / 24 for legs of
-// a = 0.15 m), less than the 2 * 0.02 m that are accepted, so that one side is never tried with the
-// default options and normals turn by up to 45 degrees within the radius.
-TEST(EstimateSurface, DISABLED_DoesNotSmearACornerWithTheDefaultOptions) {
+TEST(EstimateSurface, DoesNotSmearACornerWithTheDefaultOptions) {
   EXPECT_LT(CornerSmear(0.02, 0.05), 10.0 * M_PI / 180.0);
 }
 

@@ -88,9 +88,7 @@ TEST(SweepCorrection, ImprovesAScanStampedAtItsFirstBeam) {
   EXPECT_NEAR(outcome.deviation.angle, 0.025, 0.005);
 }
 
-// Disabled: the deviation of a scan that is stamped at its first beam holds half the sweep's turn,
-// too, but is divided by the time between the scans alone: 40 % too much here, in one step.
-TEST(SweepCorrection, DISABLED_FindsTheTurnOfAScanStampedAtItsFirstBeam) {
+TEST(SweepCorrection, FindsTheTurnOfAScanStampedAtItsFirstBeam) {
   const MatchOutcome outcome = MatchBlindEncoders(0.0, {0.0, 0.0, 0.5});
   EXPECT_NEAR(outcome.sweep_correction.theta, 0.5, 0.02);
   EXPECT_NEAR(outcome.deviation.angle, 0.025, 0.0005);
@@ -117,10 +115,7 @@ TEST(SweepCorrection, IsThePredictedVelocityWithoutEncoders) {
   EXPECT_NEAR(outcome.deviation.distance, 0.0, 1e-4);
 }
 
-// Disabled: what the model was corrected with already is not taken off, so that a sweep is
-// corrected twice while encoders come back (the fusion knows them one scan earlier than the
-// prediction).
-TEST(SweepCorrection, DISABLED_IsNotAppliedTwice) {
+TEST(SweepCorrection, IsNotAppliedTwice) {
   const Velocity2 velocity{0.4, 0.0, 0.5};
   const MatchOutcome outcome = MatchWithoutEncoders(velocity, velocity);
   EXPECT_NEAR(outcome.sweep_correction.theta, 0.0, 0.02);

@@ -71,8 +71,7 @@ TEST(CameraPipeline, WithImagesItIsAsLongAsItIs) {
   EXPECT_NEAR(ErrorAlong(true), 0.0, 0.2 * (kScale - 1.0) * kWay);
 }
 
-// Disabled: the mode of a match never tells of the camera, nor of a scan without a single hit.
-TEST(CameraPipeline, DISABLED_TheModeTellsWhatAPoseRestsOn) {
+TEST(CameraPipeline, TheModeTellsWhatAPoseRestsOn) {
   const PaintedWorld world = Corridor();
   for (const bool encoders : {true, false}) {
     PipelineRun run;

@@ -12,7 +12,7 @@ namespace scan_image_slam {
 struct EdgeExtractionOptions {
   double roi_below = 0.25;  ///< how far the region of interest reaches below the laser's plane [m]
   double roi_above = 1.8;   ///< and above it [m]
-  double edge_threshold = 8.0;    ///< step that makes an edge pixel [grey levels]
+  double edge_threshold = 10.7;   ///< step that makes an edge pixel [grey levels]
   double min_edge_length = 0.15;  ///< vertical run of an edge [m]
   double min_edge_rows = 8.0;     ///< and in rows of the picture [px]
   double column_tolerance = 1.5;  ///< runs of one edge lie so near to each other [px]

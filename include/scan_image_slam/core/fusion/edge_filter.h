@@ -34,6 +34,10 @@ struct EdgeChain {
   double Strength() const { return accumulated.Vertical(); }
 };
 
+/// Horizontal gradient at a step of one grey level: Sobel's kernel makes 4 of it, and the blur
+/// before it leaves three quarters.
+constexpr double kStepGain = 3.0;
+
 /// Thin edges of an image with the gradient that made them.
 struct EdgePixels {
   cv::Mat sign;      ///< CV_8S: +1 or -1 on an edge pixel (see EdgeChain::sign), 0 elsewhere

@@ -46,6 +46,7 @@ struct Velocity2 {
   double theta = 0.0;  ///< counter-clockwise [rad/s]
 };
 Velocity2 operator+(const Velocity2& a, const Velocity2& b);
+Velocity2 operator-(const Velocity2& a, const Velocity2& b);
 
 /// Motion of a body that keeps its velocity for `dt` seconds (the exponential map of SE(2)).
 Pose2 Move(const Velocity2& velocity, double dt);

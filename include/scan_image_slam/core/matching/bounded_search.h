@@ -49,8 +49,9 @@ SearchResult SearchExhaustively(const std::vector<Candidate>& candidates,
   double best_cost = std::numeric_limits<double>::infinity();
   for (const Candidate& candidate : candidates) {
     const double extra = grid.deviation_cost * candidate.steps;
-    const double e = mean_e(candidate.deviation, best_cost - extra);
-    if (e + extra >= best_cost) continue;
+    const double limit = best_cost - extra;
+    const double e = mean_e(candidate.deviation, limit);
+    if (e >= limit) continue;
     best_cost = e + extra;
     best.deviation = candidate.deviation;
     best.e = e;

@@ -2,7 +2,6 @@
 
 #include "scan_image_slam/core/fusion/fused_model.h"
 #include "scan_image_slam/core/geometry/pose2.h"
-#include "scan_image_slam/core/matching/nearest_field.h"
 
 #include <optional>
 #include <vector>
@@ -55,13 +54,11 @@ class EdgeMap {
   const EdgeMapOptions& options() const { return options_; }
 
  private:
-  int FindId(const ModelEdge& edge, const RigidTransform2& map_from_base) const;
-  const NearestField& FieldOf(int sign) const { return sign > 0 ? positive_ : negative_; }
+  /// The landmark of a sign nearest to a place, at most `reach` away; -1 if there is none.
+  int NearestId(const Eigen::Vector2d& place, int sign, double reach) const;
 
   EdgeMapOptions options_;
   std::vector<EdgeLandmark> landmarks_;
-  NearestField positive_;
-  NearestField negative_;
 };
 
 }  // namespace scan_image_slam

@@ -57,8 +57,9 @@ class LocalMap {
   void Clear();
 
  private:
-  bool Merge(const SurfacePoint& point, const Eigen::Vector2d& place, const Eigen::Vector2d& normal,
-             double way);
+  int ElementOf(const Eigen::Vector2d& place, const Eigen::Vector2d& normal) const;
+  void Merge(int id, const SurfacePoint& point, const Eigen::Vector2d& place,
+             const Eigen::Vector2d& normal);
 
   LocalMapOptions options_;
   RangeNoise noise_;
