@@ -1,4 +1,5 @@
 """scripts/recorded_data.py: a table of what slam_offline gives on recordings."""
+import json
 import os
 import subprocess
 import unittest
@@ -29,6 +30,8 @@ class RecordedData(ToolTest):
         cells = self.table("--out", self.path("out"))["`run`"]
         self.assertEqual(int(cells["scans"]), len(read_tum(self.path("out", "run", "online.tum"))))
         self.assertGreater(int(cells["images"]), 30)
+        report = json.loads(read(self.path("out", "run.no_images", "report.json")))
+        self.assertEqual(report["images"], 0)
         expected = []
         for what, path in (("", "run/online"), ("without images ", "run.no_images/online"),
                            ("encoders ", "run/encoder")):
