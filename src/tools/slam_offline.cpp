@@ -2,6 +2,7 @@
 
 #include "progress_line.h"
 #include "scan_image_slam/core/evaluation/trajectory.h"
+#include "scan_image_slam/core/fusion/fusion_picture.h"
 #include "scan_image_slam/core/mapping/map_file.h"
 #include "scan_image_slam/core/mapping/map_picture.h"
 #include "scan_image_slam/core/pipeline/slam_pipeline.h"
@@ -14,8 +15,10 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
 #include <limits>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -34,6 +37,7 @@ struct Arguments {
   std::string base_frame;
   BagTopics topics;
   bool no_images = false;
+  int fusion_images = 0;  ///< every so many images a picture; 0: none
   int threads = 1;
 };
 
@@ -106,6 +110,29 @@ struct Run {
   }
 };
 
+void WritePicture(const std::string& path, const cv::Mat& picture) {
+  if (!cv::imwrite(path, picture)) throw std::runtime_error("can't write " + path);
+}
+
+/// Pictures of every nth image that was fused: FOLDER/fusion_000001.png and so on, by its number.
+class FusionPictures {
+ public:
+  FusionPictures(std::string folder, int every) : folder_(std::move(folder)), every_(every) {}
+
+  void Add(const ScanImageFusion& fusion, const FusedModel& model) {
+    if (every_ == 0 || !model.has_image) return;
+    if (fused_++ % every_ != 0) return;
+    std::ostringstream name;
+    name << folder_ << "/fusion_" << std::setw(6) << std::setfill('0') << fused_ << ".png";
+    WritePicture(name.str(), DrawFusion(fusion, model));
+  }
+
+ private:
+  std::string folder_;
+  int every_;
+  int fused_ = 0;
+};
+
 double PeakMemoryMegabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -142,10 +169,7 @@ void WriteResults(const Arguments& arguments, const Run& run, const Trajectory& 
   DrawnPath estimate{"estimate", kEstimateColour, {}};
   for (const StampedPose& p : final_trajectory) estimate.poses.push_back(p.pose);
   const DrawnPath encoders{"encoders", kEncoderColour, EncoderPathInMap(run)};
-  const std::string picture = arguments.out + "/map.png";
-  if (!cv::imwrite(picture, DrawMap(map, {encoders, estimate}))) {
-    throw std::runtime_error("can't write " + picture);
-  }
+  WritePicture(arguments.out + "/map.png", DrawMap(map, {encoders, estimate}));
 }
 
 SlamOptions ReadOptions(const Arguments& arguments) {
@@ -162,6 +186,7 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
   MakeFolder(arguments.out);
 
   Run run;
+  FusionPictures pictures(arguments.out, arguments.fusion_images);
   StageTimes times;
   const auto run_stage = [&](Stage stage, const std::function<void()>& work) {
     times.Run(stage, work);
@@ -170,6 +195,7 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
       options,
       [&](const PipelineResult& result) {
         run.Add(result);
+        pictures.Add(pipeline.fusion(), result.model);
         times.FinishScan();
       },
       run_stage);
@@ -217,6 +243,10 @@ int Main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--set", arguments.settings, "NODE/PARAMETER=VALUE, over the configuration");
   app.add_flag("--no-images", arguments.no_images, "laser and encoders only");
+  app.add_option("--fusion-images", arguments.fusion_images,
+                 "write what the fusion sees, fusion_000001.png, for every so many images; 0: none")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--threads", arguments.threads, "threads of the image processing")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));

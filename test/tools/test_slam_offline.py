@@ -4,6 +4,7 @@ import json
 import os
 import unittest
 
+import cv2
 import yaml
 
 from tools import ToolTest, copy_bag, read, read_tum, run, simulate, stamps
@@ -124,6 +125,21 @@ class SlamOffline(ToolTest):
         raw = simulate(self.path("raw.bag"), "--image-format", "mono8")
         self.slam(raw, out="raw")
         self.assertEqual(self.report("raw")["images"], self.report()["images"])
+
+    def test_pictures_of_the_fusion(self):
+        self.slam(self.bag, "--fusion-images", 10)
+        pictures = sorted(f for f in os.listdir(self.path("out")) if f not in FILES)
+        # 30 images a second for 1.5 s; the first of ten, whatever the last ones are.
+        self.assertEqual(pictures[:3], ["fusion_%06d.png" % n for n in (1, 11, 21)])
+        self.assertLessEqual(len(pictures), 5)
+        pixels = cv2.imread(self.path("out", pictures[0]))
+        self.assertEqual(pixels.shape[1], 640)
+        self.assertGreater(pixels.shape[0], 480)  # with the strength by bearing below
+        # Beams and edges are drawn in colours; the picture itself is grey.
+        spread = pixels.max(axis=2).astype(int) - pixels.min(axis=2)
+        self.assertGreater((spread > 100).sum(), 500)
+        self.slam(self.bag, "--fusion-images", 10, "--no-images", out="without")
+        self.assertEqual(sorted(os.listdir(self.path("without"))), FILES)
 
     def test_no_images(self):
         self.slam(self.bag, "--no-images")

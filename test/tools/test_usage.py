@@ -10,6 +10,7 @@ OPTIONS = {
         "--config",
         "--set",
         "--no-images",
+        "--fusion-images",
         "--threads",
         "--scan-topic",
         "--image-topic",
