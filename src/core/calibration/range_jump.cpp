@@ -1,5 +1,6 @@
 #include "scan_image_slam/core/calibration/range_jump.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace scan_image_slam {

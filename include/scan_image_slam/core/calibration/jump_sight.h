@@ -4,6 +4,7 @@
 #include "scan_image_slam/core/geometry/pose2.h"
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <Eigen/Core>
