@@ -30,12 +30,8 @@ namespace scan_image_slam {
 namespace {
 
 struct Arguments {
-  std::string bag;
+  BagArguments input;
   std::string out;
-  std::string config = "default";
-  std::vector<std::string> settings;
-  std::string base_frame;
-  BagTopics topics;
   bool no_images = false;
   int fusion_images = 0;  ///< every so many images a picture; 0: none
   int threads = 1;
@@ -172,16 +168,8 @@ void WriteResults(const Arguments& arguments, const Run& run, const Trajectory& 
   WritePicture(arguments.out + "/map.png", DrawMap(map, {encoders, estimate}));
 }
 
-SlamOptions ReadOptions(const Arguments& arguments) {
-  SlamOptions options = ReadSlamOptions(arguments.config, arguments.settings);
-  if (!arguments.base_frame.empty()) {
-    options.fusion_node.odometry.base_frame = arguments.base_frame;
-  }
-  return options;
-}
-
 void RunOffline(const Arguments& arguments, const SlamOptions& options) {
-  BagInput input(arguments.bag, arguments.topics, options);
+  BagInput input(arguments.input.bag, arguments.input.topics, options);
   for (const std::string& note : input.notes()) std::cerr << note << "\n";
   MakeFolder(arguments.out);
 
@@ -208,7 +196,7 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
   for (const auto& [reason, count] : input.refused()) {
     std::cerr << "refused " << count << " x " << reason << "\n";
   }
-  if (run.online.empty()) throw BagError(arguments.bag + ": no scan could be used");
+  if (run.online.empty()) throw BagError(arguments.input.bag + ": no scan could be used");
 
   pipeline.mapper().Redraw(std::numeric_limits<int>::max());
   Trajectory trajectory;
@@ -237,11 +225,8 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
 int Main(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("Runs scan_image_slam on a bag, without a ROS master.");
-  app.add_option("--bag", arguments.bag, "bag to read")->required();
+  arguments.input.AddTo(&app);
   app.add_option("--out", arguments.out, "folder for the results; made if absent")->required();
-  app.add_option("--config", arguments.config, "default, paper, or a yaml file")
-      ->capture_default_str();
-  app.add_option("--set", arguments.settings, "NODE/PARAMETER=VALUE, over the configuration");
   app.add_flag("--no-images", arguments.no_images, "laser and encoders only");
   app.add_option("--fusion-images", arguments.fusion_images,
                  "write what the fusion sees, fusion_000001.png, for every so many images; 0: none")
@@ -250,13 +235,6 @@ int Main(int argc, char** argv) {
   app.add_option("--threads", arguments.threads, "threads of the image processing")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
-  app.add_option("--scan-topic", arguments.topics.scan, "LaserScan (default /scan)");
-  app.add_option("--image-topic", arguments.topics.image,
-                 "Image or CompressedImage (default /image_raw)");
-  app.add_option("--camera-info-topic", arguments.topics.camera_info,
-                 "CameraInfo (default /camera_info)");
-  app.add_option("--odom-topic", arguments.topics.odom, "Odometry (default /odom)");
-  app.add_option("--base-frame", arguments.base_frame, "frame of the robot's base");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -265,8 +243,8 @@ int Main(int argc, char** argv) {
   cv::setNumThreads(arguments.threads);
   SlamOptions options;
   try {
-    options = ReadOptions(arguments);
-    arguments.topics.use_images = !arguments.no_images && options.fusion_node.use_camera;
+    options = arguments.input.ReadOptions();
+    arguments.input.topics.use_images = !arguments.no_images && options.fusion_node.use_camera;
   } catch (const std::exception& error) {
     std::cerr << "slam_offline: " << error.what() << "\n";
     return 1;

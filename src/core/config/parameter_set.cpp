@@ -162,4 +162,12 @@ void ParameterSet::Set(const std::map<std::string, ParameterValue>& values) {
   for (const auto& [name, value] : values) Set(name, value);
 }
 
+ParameterSet ParameterSet::DifferentFrom(const ParameterSet& other) const {
+  ParameterSet different(node_);
+  for (const Parameter& p : parameters_) {
+    if (ToText(p.get()) != ToText(other.Find(p.name).get())) different.parameters_.push_back(p);
+  }
+  return different;
+}
+
 }  // namespace scan_image_slam

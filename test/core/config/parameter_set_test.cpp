@@ -69,6 +69,22 @@ TEST_F(ParameterSetTest, TellsWhatTheFieldHolds) {
   for (int i = 0; i < 6; ++i) EXPECT_EQ(set_.parameters()[i].get(), expected[i]) << i;
 }
 
+TEST_F(ParameterSetTest, KnowsWhatDiffers) {
+  double width = 1.0;
+  double tilt = M_PI / 6.0 + 1e-14;  // the same when it is written
+  std::string frame = "lid";
+  ParameterSet other("painter");
+  other.Add("brush/width", &width, "m", {0.5, 2.0}, "a length");
+  other.AddDegrees("brush/tilt_deg", &tilt, {-90.0, 90.0}, "an angle");
+  other.Add("frame", &frame, "a name");
+  tilt_ = M_PI / 6.0;
+  const ParameterSet different = other.DifferentFrom(set_);
+  ASSERT_EQ(different.parameters().size(), 1U);
+  EXPECT_EQ(different.node(), "painter");
+  EXPECT_EQ(different.parameters()[0].name, "frame");
+  EXPECT_EQ(different.parameters()[0].get(), ParameterValue(std::string("lid")));
+}
+
 TEST_F(ParameterSetTest, WholeNumbersAreNumbers) {
   set_.Set("brush/width", 2);
   EXPECT_EQ(width_, 2.0);

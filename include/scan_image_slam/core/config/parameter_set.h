@@ -65,6 +65,9 @@ class ParameterSet {
   /// Sets several, by name; stops at the first that is wrong.
   void Set(const std::map<std::string, ParameterValue>& values);
 
+  /// The parameters whose values, as text, are not those of the same parameters in `other`.
+  ParameterSet DifferentFrom(const ParameterSet& other) const;
+
   const std::string& node() const { return node_; }
   /// For a node that runs under another name.
   void set_node(const std::string& node) { node_ = node; }

@@ -56,7 +56,10 @@ class ScanImageFusion {
   }
   const OdometryBuffer& odometry() const { return odometry_; }
 
+  const ScanImageFusionOptions& options() const { return options_; }
+
   void SetLaser(const LaserMount& mount) { laser_ = mount; }
+  const LaserMount& laser() const { return laser_; }
   /// Throws std::invalid_argument if the camera can't be used; see CameraModel and BearingImage.
   /// An image that waits is dropped if it is of another size.
   void SetCamera(const CameraIntrinsics& intrinsics, const Eigen::Isometry3d& base_from_camera);
@@ -76,6 +79,9 @@ class ScanImageFusion {
   const FusionEvidence& evidence() const { return evidence_; }
   /// Null without a camera.
   const BearingImage* bearing_image() const { return bearing_image_.get(); }
+  const CameraModel* camera() const { return camera_.get(); }
+  /// Takes points of the base frame to the camera's optical frame; with a camera.
+  const Eigen::Isometry3d& camera_from_base() const { return camera_from_base_; }
   /// Where the camera sees the hits of a model, one pixel for each beam; (-1, -1): not in view.
   std::vector<cv::Point2f> BeamPixels(const FusedModel& model) const;
 
