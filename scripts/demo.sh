@@ -8,9 +8,9 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 . "$here/env.sh"
 
 out=$(mkdir -p "${1:-$repository/demo}" && cd "${1:-$repository/demo}" && pwd)
-set +u
-. "$repository/build/devel/setup.bash"
-set -u
+# Within a function without arguments, as the set-up file would take ours for its own.
+load() { set +u && . "$repository/build/devel/setup.bash" && set -u; }
+load
 rviz=false
 [ -n "${DISPLAY:-}" ] && rviz=true
 # A master of its own, beside any that may be running.

@@ -16,7 +16,7 @@ DOCUMENTS = ["README.md", "docs/architecture.md", "docs/migration.md", "docs/pap
              "config/worlds/README.md"]
 NODES = ("scan_image_fusion", "bounded_icp", "mapper")
 TOOLS = ["slam_offline", "simulate", "evaluate_trajectory", "evaluate_relations",
-         "list_parameters", "reproduce_table1", "coreslam_offline"]
+         "list_parameters", "reproduce_table1", "coreslam_offline", "calibrate_camera_laser"]
 ENDINGS = ("md", "rst", "sh", "py", "h", "cpp", "launch", "rviz", "msg", "srv", "test")
 
 
