@@ -189,9 +189,15 @@ class MapperNodeTest(unittest.TestCase):
         self.assertEqual(whole.info.resolution, grid.info.resolution)
 
     def test_the_paths_are_estimate_and_encoders(self):
+        heard = len(self.paths.messages), len(self.encoder_paths.messages)
         self.drive(10, lambda pose: (1.5 * pose[0], 0.0, 0.0))
-        path = self.paths.find(lambda m: len(m.poses) == 10, 'the whole path')
-        encoders = self.encoder_paths.find(lambda m: len(m.poses) == 10, 'the whole path')
+
+        def whole_path(recorder, since):
+            return wait_for(lambda: [m for m in recorder.messages[since:] if len(m.poses) == 10],
+                            'the whole path')[-1]
+
+        path = whole_path(self.paths, heard[0])
+        encoders = whole_path(self.encoder_paths, heard[1])
         for i in range(10):
             self.assertAlmostEqual(path.poses[i].pose.position.x, STEP * i, 6)
             self.assertAlmostEqual(encoders.poses[i].pose.position.x, 1.5 * STEP * i, 6)

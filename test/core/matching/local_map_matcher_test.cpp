@@ -69,7 +69,7 @@ TEST(LocalMapMatcher, SearchesTheWholeWindow) {
     const MotionPrediction prediction = Predicted(error, wide);
     const MatchOutcome outcome = matcher.Match(SeenFrom(kOrigin), kOrigin, kExact, prediction);
     ExpectPose(Result(kOrigin, prediction, outcome), kOrigin, 1e-4, 1e-4);
-    EXPECT_EQ(outcome.candidates, 21 * 55);  // 0.6 / 0.06 and 0.4 / 0.015 on each side
+    EXPECT_EQ(outcome.candidates, 21 * 33);  // 0.6 / 0.06 and 0.4 / 0.025 on each side
   }
 }
 

@@ -12,7 +12,7 @@ namespace scan_image_slam {
 /// Grid of motions that the exhaustive search tries inside the window.
 struct SearchGrid {
   double distance_step = 0.06;   ///< largest step of distance and sideways [m]
-  double angle_step = 0.015;     ///< largest step of the angle [rad]
+  double angle_step = 0.025;     ///< largest step of the angle [rad]
   double deviation_cost = 1e-4;  ///< added to e per grid step away from the prediction [m]
   /// Throws std::invalid_argument, naming the field, if a step is not positive and finite.
   void Validate() const;
