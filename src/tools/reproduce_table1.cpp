@@ -111,6 +111,7 @@ class Reproduction {
   /// Throws what the first failing job threw.
   std::vector<Table1Row> Run() {
     std::vector<std::thread> threads;
+    threads.reserve(static_cast<std::size_t>(arguments_.threads));
     for (int i = 0; i < arguments_.threads; ++i) threads.emplace_back([this] { Work(); });
     for (std::thread& thread : threads) thread.join();
     if (failure_) std::rethrow_exception(failure_);

@@ -67,6 +67,7 @@ std::vector<Table1Row> Only(const std::vector<Table1Row>& rows,
 
 Statistics Summarize(const std::vector<Table1Row>& rows, double Table1Row::*field, double scale) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const Table1Row& row : rows) values.push_back(scale * row.*field);
   return scan_image_slam::Summarize(values);
 }

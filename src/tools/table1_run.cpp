@@ -141,6 +141,7 @@ Table1Result RunTable1(const Table1Job& job, Scenario scenario,
     });
   };
   std::vector<std::unique_ptr<ProposedRun>> runs;
+  runs.reserve(variants.size());
   for (const Table1Variant& variant : variants) {
     runs.push_back(std::make_unique<ProposedRun>(
         variant, simulation, runs.empty() ? ProposedRun::OnModel(run_core_slam) : nullptr));

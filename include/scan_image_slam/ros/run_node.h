@@ -2,7 +2,7 @@
 
 #include <csignal>
 #include <exception>
-#include <optional>
+#include <memory>
 
 #include <ros/console.h>
 #include <ros/init.h>
@@ -35,10 +35,10 @@ int RunNode(int argc, char** argv, const char* name) {
   ros::NodeHandle node;
   ros::NodeHandle private_node("~");
   try {
-    std::optional<Node> instance;
+    std::unique_ptr<Node> instance;
     {
       const InterruptLater interrupt_later;
-      instance.emplace(node, private_node);
+      instance = std::make_unique<Node>(node, private_node);
     }
     ros::spin();
     return 0;

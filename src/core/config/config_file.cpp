@@ -17,7 +17,7 @@ std::string At(const std::string& path, const YAML::Mark& mark) {
 /// The name of an entry. Throws ParameterError if it is none, or one of `names` already.
 std::string NameOf(const YAML::Node& key, const std::string& path, std::set<std::string>* names) {
   if (!key.IsScalar()) throw ParameterError(At(path, key.Mark()) + "a name is expected");
-  const std::string name = key.Scalar();
+  const std::string& name = key.Scalar();
   if (!names->insert(name).second) {
     throw ParameterError(At(path, key.Mark()) + name + ": is there twice");
   }

@@ -71,6 +71,18 @@ Line SideLine(const std::vector<PointSums>& sums, int begin, int end) {
   return line;
 }
 
+/// The line through a point and its neighbours `left` .. `right` on both sides together; next to a
+/// corner, where one side alone fits far better, that side.
+Line BestLine(const std::vector<PointSums>& sums, int left, int point, int right,
+              double noise_variance) {
+  Line line = FitLine(sums[right + 1] - sums[left]);
+  if (line.variance <= kSuspicious * noise_variance) return line;
+  for (const Line& side : {SideLine(sums, left, point + 1), SideLine(sums, point, right + 1)}) {
+    if (side.variance < kFarBetter * line.variance) line = side;
+  }
+  return line;
+}
+
 }  // namespace
 
 std::vector<SurfacePoint> EstimateSurface(const FusedModel& model, const SurfaceOptions& options,
@@ -98,14 +110,8 @@ std::vector<SurfacePoint> EstimateSurface(const FusedModel& model, const Surface
     right = std::max(right, i);
     while (right + 1 < count && is_neighbour(right + 1)) ++right;
 
-    // Both sides together; next to a corner, where one side alone fits far better, that side.
-    Line line = FitLine(sums[right + 1] - sums[left]);
     if (right + 1 - left < kMinLinePoints) continue;
-    if (line.variance > kSuspicious * noise_variance) {
-      for (const Line& side : {SideLine(sums, left, i + 1), SideLine(sums, i, right + 1)}) {
-        if (side.variance < kFarBetter * line.variance) line = side;
-      }
-    }
+    const Line line = BestLine(sums, left, i, right, noise_variance);
     if (line.variance > kMaxScatter * noise_variance) continue;
     const double cosine = line.normal.dot(p.ray);
     p.normal = cosine < 0.0 ? line.normal : Eigen::Vector2d(-line.normal);
