@@ -8,7 +8,9 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 build=${1:-$repository/build}
 [ $# -gt 0 ] && shift
-mkdir -p "$build"
+# While it is configured, catkin notes the environment that tests will have, and leaves out folders
+# that do not exist yet: the tests of a new folder would not find the Python messages.
+mkdir -p "$build/devel/lib/python3/dist-packages"
 log=$build/build.log
 # Objects are the same in every folder, so that a second build of the same sources is quick.
 export CCACHE_BASEDIR=$repository CCACHE_NOHASHDIR=1

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scan_image_slam/core/fusion/surface_profile.h"
 #include "scan_image_slam/core/geometry/pose2.h"
 #include "scan_image_slam/core/sensor/camera_model.h"
 #include "scan_image_slam/core/sensor/laser_scan.h"
@@ -181,6 +182,13 @@ inline Eigen::Isometry3d Lift(const Pose2& pose) {
   lifted.linear() = Eigen::AngleAxisd(pose.theta, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   lifted.translation() = Eigen::Vector3d(pose.x, pose.y, 0.0);
   return lifted;
+}
+
+/// The profile of a model seen from where the laser is.
+inline SurfaceProfile ProfileOf(const FusedModel& model, const BearingImage& image) {
+  std::vector<Eigen::Vector2d> points;
+  for (const ModelBeam& beam : model.beams) points.push_back(beam.point);
+  return MakeSurfaceProfile(model, points, image);
 }
 
 }  // namespace scan_image_slam

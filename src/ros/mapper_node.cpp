@@ -133,12 +133,17 @@ void MapperNode::ApplyLoopClosures() {
   std::optional<GraphState> found = loop_closing_.Take();
   if (!found) return;
   mapper_.Correct(found->poses);
-  trajectory_.Clear();
-  for (const MapPose& pose : mapper_.Trajectory()) trajectory_.Add(pose.stamp, pose.map_from_base);
   graph_ = std::move(found);
+  trajectory_moved_ = true;
 }
 
 void MapperNode::PublishMap() {
+  if (std::exchange(trajectory_moved_, false)) {
+    trajectory_.Clear();
+    for (const MapPose& pose : mapper_.Trajectory()) {
+      trajectory_.Add(pose.stamp, pose.map_from_base);
+    }
+  }
   map_publisher_.Publish(&mapper_.grid(), ros::Time::now());
   if (graph_ && graph_publisher_.getNumSubscribers() > 0) {
     graph_publisher_.publish(ToMarkers(*graph_, options_.node.map_frame, ros::Time::now()));

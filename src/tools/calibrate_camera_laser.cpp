@@ -1,6 +1,7 @@
 // Finds the camera's place on the robot, and its delay, from an ordinary drive.
 
 #include "progress_line.h"
+#include "run_tool.h"
 #include "scan_image_slam/core/calibration/calibrated_camera.h"
 #include "scan_image_slam/core/calibration/calibration_picture.h"
 #include "scan_image_slam/core/calibration/calibration_recorder.h"
@@ -205,25 +206,10 @@ int Main(int argc, char** argv) {
                  "draw the scan into an image before and after, e.g. calibration.png");
   app.add_flag("--check", arguments.check, "only report whether the calibration fits")
       ->excludes(out);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 1;
-  }
   SlamOptions options;
-  try {
-    options = arguments.input.ReadOptions();
-  } catch (const std::exception& error) {
-    std::cerr << "calibrate_camera_laser: " << error.what() << "\n";
-    return 1;
-  }
-  try {
-    Run(arguments, options);
-  } catch (const std::exception& error) {
-    std::cerr << "calibrate_camera_laser: " << error.what() << "\n";
-    return 2;
-  }
-  return 0;
+  return RunTool(
+      &app, argc, argv, "calibrate_camera_laser", [&] { options = arguments.input.ReadOptions(); },
+      [&] { Run(arguments, options); });
 }
 
 }  // namespace

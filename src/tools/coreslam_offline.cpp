@@ -1,6 +1,7 @@
 // Runs the CoreSLAM baseline on a bag, to check it against the figures of the original.
 
 #include "progress_line.h"
+#include "run_tool.h"
 #include "scan_image_slam/core/baseline/core_slam.h"
 #include "scan_image_slam/core/evaluation/trajectory.h"
 #include "scan_image_slam/core/pipeline/slam_pipeline.h"
@@ -72,25 +73,10 @@ int Main(int argc, char** argv) {
   app.add_option("--update-period", arguments.core_slam.update_period,
                  "least time between two scans drawn into the map [s]")
       ->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 1;
-  }
   arguments.topics.use_images = false;
-  try {
-    arguments.core_slam.Validate();
-  } catch (const std::invalid_argument& error) {
-    std::cerr << "coreslam_offline: " << error.what() << "\n";
-    return 1;
-  }
-  try {
-    Run(arguments);
-  } catch (const std::exception& error) {
-    std::cerr << "coreslam_offline: " << error.what() << "\n";
-    return 2;
-  }
-  return 0;
+  return RunTool(
+      &app, argc, argv, "coreslam_offline", [&] { arguments.core_slam.Validate(); },
+      [&] { Run(arguments); });
 }
 
 }  // namespace

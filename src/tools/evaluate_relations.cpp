@@ -1,9 +1,8 @@
+#include "run_tool.h"
 #include "scan_image_slam/core/evaluation/relations.h"
 #include "scan_image_slam/core/evaluation/trajectory.h"
 
-#include <exception>
 #include <iostream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -11,10 +10,6 @@
 
 namespace scan_image_slam {
 namespace {
-
-constexpr int kSuccess = 0;
-constexpr int kWrongUsage = 1;
-constexpr int kUnusableInput = 2;
 
 struct Arguments {
   std::string relations;
@@ -50,22 +45,9 @@ int Main(int argc, char** argv) {
   CLI::App app{"Errors of a trajectory by relations between poses (Kuemmerle et al. 2009)."};
   Arguments arguments;
   Declare(app, arguments);
-  try {
-    app.parse(argc, argv);
-    arguments.options.lookup.Validate();
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kSuccess : kWrongUsage;
-  } catch (const std::invalid_argument& error) {
-    std::cerr << "evaluate_relations: " << error.what() << '\n';
-    return kWrongUsage;
-  }
-  try {
-    Evaluate(arguments);
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate_relations: " << error.what() << '\n';
-    return kUnusableInput;
-  }
-  return kSuccess;
+  return RunTool(
+      &app, argc, argv, "evaluate_relations", [&] { arguments.options.lookup.Validate(); },
+      [&] { Evaluate(arguments); });
 }
 
 }  // namespace

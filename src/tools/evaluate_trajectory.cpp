@@ -1,3 +1,4 @@
+#include "run_tool.h"
 #include "scan_image_slam/core/evaluation/trajectory.h"
 #include "scan_image_slam/core/evaluation/trajectory_errors.h"
 
@@ -18,10 +19,6 @@
 
 namespace scan_image_slam {
 namespace {
-
-constexpr int kSuccess = 0;
-constexpr int kWrongUsage = 1;
-constexpr int kUnusableInput = 2;
 
 constexpr char kPlotScript[] = "plot_trajectory.py";
 // Another python in the PATH would not see the distribution's matplotlib.
@@ -112,24 +109,16 @@ int Main(int argc, char** argv) {
   CLI::App app{"Absolute and relative errors of a trajectory (ATE, RPE; Sturm et al. 2012)."};
   Arguments arguments;
   Declare(app, arguments);
-  try {
-    app.parse(argc, argv);
-    arguments.options.alignment = ParseAlignment(arguments.alignment);
-    arguments.options.Validate();
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kSuccess : kWrongUsage;
-  } catch (const std::invalid_argument& error) {
-    std::cerr << "evaluate_trajectory: " << error.what() << '\n';
-    return kWrongUsage;
-  }
-  try {
-    Evaluate(arguments);
-    if (!arguments.plot.empty()) Plot(arguments);
-  } catch (const std::exception& error) {
-    std::cerr << "evaluate_trajectory: " << error.what() << '\n';
-    return kUnusableInput;
-  }
-  return kSuccess;
+  return RunTool(
+      &app, argc, argv, "evaluate_trajectory",
+      [&] {
+        arguments.options.alignment = ParseAlignment(arguments.alignment);
+        arguments.options.Validate();
+      },
+      [&] {
+        Evaluate(arguments);
+        if (!arguments.plot.empty()) Plot(arguments);
+      });
 }
 
 }  // namespace

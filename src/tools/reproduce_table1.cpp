@@ -1,6 +1,7 @@
 // The paper's Table 1 and Fig. 6: the proposed method and CoreSLAM on the same simulated runs.
 
 #include "progress_line.h"
+#include "run_tool.h"
 #include "scan_image_slam/core/config/config_file.h"
 #include "scan_image_slam/ros/package_files.h"
 #include "slam_options.h"
@@ -206,30 +207,18 @@ int Main(int argc, char** argv) {
   CLI::App app("Reproduces the paper's Table 1 and Fig. 6 by simulation.");
   Arguments arguments;
   Declare(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 1;
-  }
-  arguments.maps = std::min<int>(arguments.maps, static_cast<int>(arguments.worlds.size()));
-  cv::setNumThreads(1);  // the runs share the processor
   std::string command = "reproduce_table1";
   for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
   std::unique_ptr<Reproduction> reproduction;
-  try {
-    for (const std::string& world : arguments.worlds) FindWorld(world);
-    reproduction = std::make_unique<Reproduction>(arguments);
-  } catch (const std::exception& error) {
-    std::cerr << "reproduce_table1: " << error.what() << "\n";
-    return 1;
-  }
-  try {
-    WriteReport(arguments.out, command, reproduction->Run());
-  } catch (const std::exception& error) {
-    std::cerr << "reproduce_table1: " << error.what() << "\n";
-    return 2;
-  }
-  return 0;
+  return RunTool(
+      &app, argc, argv, "reproduce_table1",
+      [&] {
+        arguments.maps = std::min<int>(arguments.maps, static_cast<int>(arguments.worlds.size()));
+        cv::setNumThreads(1);  // the runs share the processor
+        for (const std::string& world : arguments.worlds) FindWorld(world);
+        reproduction = std::make_unique<Reproduction>(arguments);
+      },
+      [&] { WriteReport(arguments.out, command, reproduction->Run()); });
 }
 
 }  // namespace

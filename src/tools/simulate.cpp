@@ -1,6 +1,7 @@
 // Writes a bag of the simulated robot's sensors, and beside it the truth.
 
 #include "progress_line.h"
+#include "run_tool.h"
 #include "scan_image_slam/core/evaluation/trajectory.h"
 #include "scan_image_slam/core/simulation/robot_simulation.h"
 #include "scan_image_slam/ros/package_files.h"
@@ -19,10 +20,6 @@
 
 namespace scan_image_slam {
 namespace {
-
-constexpr int kSuccess = 0;
-constexpr int kWrongUsage = 1;
-constexpr int kUnusableInput = 2;
 
 struct Arguments {
   std::string world;

@@ -1,6 +1,7 @@
 // Runs the three stages on a bag, in process and as fast as the machine allows.
 
 #include "progress_line.h"
+#include "run_tool.h"
 #include "scan_image_slam/core/evaluation/trajectory.h"
 #include "scan_image_slam/core/fusion/fusion_picture.h"
 #include "scan_image_slam/core/mapping/map_file.h"
@@ -235,27 +236,15 @@ int Main(int argc, char** argv) {
   app.add_option("--threads", arguments.threads, "threads of the image processing")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 1;
-  }
-  cv::setNumThreads(arguments.threads);
   SlamOptions options;
-  try {
-    options = arguments.input.ReadOptions();
-    arguments.input.topics.use_images = !arguments.no_images && options.fusion_node.use_camera;
-  } catch (const std::exception& error) {
-    std::cerr << "slam_offline: " << error.what() << "\n";
-    return 1;
-  }
-  try {
-    RunOffline(arguments, options);
-  } catch (const std::exception& error) {
-    std::cerr << "slam_offline: " << error.what() << "\n";
-    return 2;
-  }
-  return 0;
+  return RunTool(
+      &app, argc, argv, "slam_offline",
+      [&] {
+        cv::setNumThreads(arguments.threads);
+        options = arguments.input.ReadOptions();
+        arguments.input.topics.use_images = !arguments.no_images && options.fusion_node.use_camera;
+      },
+      [&] { RunOffline(arguments, options); });
 }
 
 }  // namespace

@@ -56,6 +56,7 @@ class MapperNode {
   Mapper mapper_;
   LoopClosingThread loop_closing_;
   std::optional<GraphState> graph_;
+  bool trajectory_moved_ = false;  ///< the path is to be told anew, with the next map
   bool paused_ = false;
   bool has_encoders_ = false;
   std::optional<MapPose> last_pose_;

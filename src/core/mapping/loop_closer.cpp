@@ -40,9 +40,11 @@ bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
     neighbours_[id - 1].push_back({id, way});
   }
   ExtendSubmaps();
+  const std::vector<std::pair<int, int>> candidates = Candidates(id);
+  if (candidates.empty()) return false;
   std::vector<GraphConstraint> closures;
   const std::vector<double> way = WayInGraph(id);
-  for (const auto& [near_id, submap_id] : Candidates(id)) {
+  for (const auto& [near_id, submap_id] : candidates) {
     if (auto closure = Close(id, submap_id, near_id, way[near_id])) closures.push_back(*closure);
   }
   if (closures.empty()) return false;
@@ -50,8 +52,8 @@ bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
     neighbours_[closure.from].push_back({closure.to, 0.5});
     neighbours_[closure.to].push_back({closure.from, 0.5});
   }
-  closures_ += static_cast<int>(closures.size());
-  return Optimize(closures);
+  Optimize(closures);
+  return true;
 }
 
 void LoopCloser::ExtendSubmaps() {
@@ -188,7 +190,7 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
   return closure;
 }
 
-bool LoopCloser::Optimize(const std::vector<GraphConstraint>& closures) {
+void LoopCloser::Optimize(const std::vector<GraphConstraint>& closures) {
   constexpr double kSurprise = 9.0;  // squared standard deviations
   constexpr int kMaxClosures = 30;
   constexpr int kRecent = 40;
@@ -203,7 +205,6 @@ bool LoopCloser::Optimize(const std::vector<GraphConstraint>& closures) {
   const int count = static_cast<int>(poses_.size());
   poses_ =
       OptimizeGraph(poses_, constraints_, all ? 1 : std::max(1, count - kRecent), options_.graph);
-  return true;
 }
 
 }  // namespace scan_image_slam

@@ -1,10 +1,10 @@
 #include "scan_image_slam/core/fusion/edge_extraction.h"
 #include "support_fusion.h"
+#include "support_options.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include <gtest/gtest.h>
 
@@ -41,28 +41,17 @@ RegionOfInterest RegionAt(double distance, double below, double above) {
 }
 
 TEST(EdgeExtractionOptions, NamesTheFieldThatIsWrong) {
-  const auto expect_refused = [](double EdgeExtractionOptions::*field, double value,
-                                 const std::string& name) {
-    EdgeExtractionOptions options;
-    options.*field = value;
-    try {
-      options.Validate();
-      ADD_FAILURE() << name << " = " << value << " was accepted";
-    } catch (const std::invalid_argument& error) {
-      EXPECT_EQ(std::string(error.what()).find(name), 0U) << error.what();
-    }
-  };
   EXPECT_NO_THROW(EdgeExtractionOptions().Validate());
   for (const double nonsense : {-0.1, std::nan("")}) {
-    expect_refused(&EdgeExtractionOptions::roi_below, nonsense, "roi_below");
-    expect_refused(&EdgeExtractionOptions::roi_above, nonsense, "roi_above");
-    expect_refused(&EdgeExtractionOptions::edge_threshold, nonsense, "edge_threshold");
-    expect_refused(&EdgeExtractionOptions::min_edge_length, nonsense, "min_edge_length");
-    expect_refused(&EdgeExtractionOptions::min_edge_rows, nonsense, "min_edge_rows");
-    expect_refused(&EdgeExtractionOptions::column_tolerance, nonsense, "column_tolerance");
+    ExpectRefused(&EdgeExtractionOptions::roi_below, nonsense, "roi_below");
+    ExpectRefused(&EdgeExtractionOptions::roi_above, nonsense, "roi_above");
+    ExpectRefused(&EdgeExtractionOptions::edge_threshold, nonsense, "edge_threshold");
+    ExpectRefused(&EdgeExtractionOptions::min_edge_length, nonsense, "min_edge_length");
+    ExpectRefused(&EdgeExtractionOptions::min_edge_rows, nonsense, "min_edge_rows");
+    ExpectRefused(&EdgeExtractionOptions::column_tolerance, nonsense, "column_tolerance");
   }
-  expect_refused(&EdgeExtractionOptions::edge_threshold, 0.0, "edge_threshold");
-  expect_refused(&EdgeExtractionOptions::column_tolerance, 0.0, "column_tolerance");
+  ExpectRefused(&EdgeExtractionOptions::edge_threshold, 0.0, "edge_threshold");
+  ExpectRefused(&EdgeExtractionOptions::column_tolerance, 0.0, "column_tolerance");
 }
 
 TEST(EdgeExtractionOptions, ARegionWithoutHeightIsRefused) {

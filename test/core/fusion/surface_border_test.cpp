@@ -34,12 +34,6 @@ struct TwoWalls {
   }
 };
 
-SurfaceProfile ProfileOf(const FusedModel& model, const BearingImage& image) {
-  std::vector<Eigen::Vector2d> points;
-  for (const ModelBeam& beam : model.beams) points.push_back(beam.point);
-  return MakeSurfaceProfile(model, points, image);
-}
-
 double DistanceAt(const SurfaceProfile& profile, const BearingImage& image, double bearing) {
   return profile.columns[std::lround(image.Column(bearing))].distance;
 }

@@ -37,12 +37,6 @@ FusedModel Sweep(double first_degrees, double last_degrees, double step_degrees,
   return model;
 }
 
-SurfaceProfile ProfileOf(const FusedModel& model, const BearingImage& image) {
-  std::vector<Eigen::Vector2d> points;
-  for (const ModelBeam& beam : model.beams) points.push_back(beam.point);
-  return MakeSurfaceProfile(model, points, image);
-}
-
 double WallAtTwo(double bearing) { return 2.0 / std::cos(bearing); }
 
 /// A wall `depth` ahead of the camera. A hit counts for its whole column, so half a column is as

@@ -1,5 +1,7 @@
 #include "scan_image_slam/core/matching/local_map.h"
 
+#include "refinement_fixtures.h"
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -18,20 +20,9 @@ constexpr double kInformation = 1.0 / (1e-4 + 1e-6);  // of one such point: the 
 
 LocalMap EmptyMap() { return LocalMap(kOptions, kNoise); }
 
-/// A point on a wall across the x axis, seen from the origin's side.
-SurfacePoint PointAt(double x, double y) {
-  SurfacePoint p;
-  p.point = {x, y};
-  p.ray = {1.0, 0.0};
-  p.normal = {-1.0, 0.0};
-  p.range = x;
-  p.angle_variance = 0.01;
-  return p;
-}
-
 /// The same from the other side of the wall.
 SurfacePoint PointFromBehind(double x, double y) {
-  SurfacePoint p = PointAt(x, y);
+  SurfacePoint p = PointAhead(x, y);
   p.ray = -p.ray;
   p.normal = -p.normal;
   return p;
@@ -44,7 +35,7 @@ LocalMap MapOf(const std::vector<SurfacePoint>& points) {
 }
 
 TEST(LocalMap, StartsAnElementWhereNothingIsKnown) {
-  const LocalMap map = MapOf({PointAt(2.0, 0.5)});
+  const LocalMap map = MapOf({PointAhead(2.0, 0.5)});
   ASSERT_EQ(map.elements().size(), 1u);
   const SurfaceElement& element = map.elements()[0];
   EXPECT_EQ(element.position, Eigen::Vector2f(2.0f, 0.5f));
@@ -55,7 +46,7 @@ TEST(LocalMap, StartsAnElementWhereNothingIsKnown) {
 
 TEST(LocalMap, PlacesPointsByThePoseOfTheBase) {
   LocalMap map = EmptyMap();
-  map.Insert({PointAt(2.0, 0.5)}, {10.0, 20.0, M_PI / 2.0});
+  map.Insert({PointAhead(2.0, 0.5)}, {10.0, 20.0, M_PI / 2.0});
   EXPECT_NEAR(map.elements()[0].position.x(), 9.5, 1e-5);
   EXPECT_NEAR(map.elements()[0].position.y(), 22.0, 1e-5);
   EXPECT_NEAR(map.elements()[0].normal.x(), 0.0, 1e-6);
@@ -63,13 +54,13 @@ TEST(LocalMap, PlacesPointsByThePoseOfTheBase) {
 }
 
 TEST(LocalMap, LeavesOutPointsWithoutANormal) {
-  SurfacePoint p = PointAt(2.0, 0.0);
+  SurfacePoint p = PointAhead(2.0, 0.0);
   p.normal = {0.0, 0.0};
   EXPECT_TRUE(MapOf({p}).elements().empty());
 }
 
 TEST(LocalMap, RefinesAcrossTheWallAndNotAlongIt) {
-  const LocalMap map = MapOf({PointAt(2.0, 0.0), PointAt(2.04, 0.03)});
+  const LocalMap map = MapOf({PointAhead(2.0, 0.0), PointAhead(2.04, 0.03)});
   ASSERT_EQ(map.elements().size(), 1u);
   EXPECT_FLOAT_EQ(map.elements()[0].position.x(), 2.02f);
   EXPECT_EQ(map.elements()[0].position.y(), 0.0f);
@@ -77,8 +68,8 @@ TEST(LocalMap, RefinesAcrossTheWallAndNotAlongIt) {
 
 TEST(LocalMap, AveragesPointsOfEqualInformation) {
   // Along the wall the points belong to one element; across it their mean is at 2.01.
-  const LocalMap map =
-      MapOf({PointAt(2.0, 0.0), PointAt(2.04, 0.01), PointAt(1.98, 0.02), PointAt(2.02, -0.02)});
+  const LocalMap map = MapOf({PointAhead(2.0, 0.0), PointAhead(2.04, 0.01), PointAhead(1.98, 0.02),
+                              PointAhead(2.02, -0.02)});
   ASSERT_EQ(map.elements().size(), 1u);
   EXPECT_NEAR(map.elements()[0].position.x(), 2.01, 1e-6);
   EXPECT_NEAR(map.elements()[0].information, 4.0 * kInformation, 1e-5 * kInformation);
@@ -87,10 +78,10 @@ TEST(LocalMap, AveragesPointsOfEqualInformation) {
 
 TEST(LocalMap, WeighsPointsByTheirInformation) {
   // Under 60 degrees only half of the range's noise is across the wall: 1 / (0.25e-4 + 1e-6).
-  SurfacePoint slanted = PointAt(2.04, 0.0);
+  SurfacePoint slanted = PointAhead(2.04, 0.0);
   slanted.ray = {0.5, std::sqrt(0.75)};
   const double information = 1.0 / 26e-6;
-  const LocalMap map = MapOf({PointAt(2.0, 0.0), slanted});
+  const LocalMap map = MapOf({PointAhead(2.0, 0.0), slanted});
   ASSERT_EQ(map.elements().size(), 1u);
   EXPECT_NEAR(map.elements()[0].position.x(),
               2.0 + 0.04 * information / (information + kInformation), 1e-6);
@@ -99,29 +90,29 @@ TEST(LocalMap, WeighsPointsByTheirInformation) {
 
 TEST(LocalMap, AveragesNormalsByTheirVariance) {
   // 0.4 rad apart, the second one known four times as well: a line of unit vectors in proportion.
-  SurfacePoint turned = PointAt(2.0, 0.0);
+  SurfacePoint turned = PointAhead(2.0, 0.0);
   turned.normal = {-std::cos(0.4), std::sin(0.4)};
   turned.angle_variance = 0.0025;
-  const LocalMap map = MapOf({PointAt(2.0, 0.0), turned});
+  const LocalMap map = MapOf({PointAhead(2.0, 0.0), turned});
   const Eigen::Vector2d mean(-0.2 - 0.8 * std::cos(0.4), 0.8 * std::sin(0.4));
   EXPECT_NEAR((map.elements()[0].normal.cast<double>() - mean.normalized()).norm(), 0.0, 1e-6);
   EXPECT_FLOAT_EQ(map.elements()[0].angle_information, 500.0f);
 }
 
 TEST(LocalMap, StartsAnotherElementASpacingFarther) {
-  EXPECT_EQ(MapOf({PointAt(2.0, 0.0), PointAt(2.0, 0.049)}).elements().size(), 1u);
-  EXPECT_EQ(MapOf({PointAt(2.0, 0.0), PointAt(2.0, 0.051)}).elements().size(), 2u);
+  EXPECT_EQ(MapOf({PointAhead(2.0, 0.0), PointAhead(2.0, 0.049)}).elements().size(), 1u);
+  EXPECT_EQ(MapOf({PointAhead(2.0, 0.0), PointAhead(2.0, 0.051)}).elements().size(), 2u);
 }
 
 TEST(LocalMap, StartsAnotherElementBehindTheMergeOffset) {
-  EXPECT_EQ(MapOf({PointAt(2.0, 0.0), PointAt(2.099, 0.0)}).elements().size(), 1u);
-  const LocalMap map = MapOf({PointAt(2.0, 0.0), PointAt(2.101, 0.0)});
+  EXPECT_EQ(MapOf({PointAhead(2.0, 0.0), PointAhead(2.099, 0.0)}).elements().size(), 1u);
+  const LocalMap map = MapOf({PointAhead(2.0, 0.0), PointAhead(2.101, 0.0)});
   ASSERT_EQ(map.elements().size(), 2u);
   EXPECT_EQ(map.elements()[0].position.x(), 2.0f);
 }
 
 TEST(LocalMap, KeepsTheSidesOfAThinWallApart) {
-  const LocalMap map = MapOf({PointAt(2.0, 0.0), PointFromBehind(2.06, 0.0)});
+  const LocalMap map = MapOf({PointAhead(2.0, 0.0), PointFromBehind(2.06, 0.0)});
   ASSERT_EQ(map.elements().size(), 2u);
   EXPECT_EQ(map.elements()[0].position.x(), 2.0f);
   EXPECT_EQ(map.elements()[1].position.x(), 2.06f);
@@ -131,7 +122,7 @@ TEST(LocalMap, KeepsTheSidesOfAThinWallApart) {
 
 TEST(LocalMap, DoesNotMixTheSidesOfAWallThinnerThanItsSpacing) {
   // 20 mm apart the other side is too near to start an element of its own, and changes none.
-  const LocalMap map = MapOf({PointAt(2.0, 0.0), PointFromBehind(2.02, 0.0)});
+  const LocalMap map = MapOf({PointAhead(2.0, 0.0), PointFromBehind(2.02, 0.0)});
   ASSERT_EQ(map.elements().size(), 1u);
   EXPECT_EQ(map.elements()[0].position.x(), 2.0f);
   EXPECT_EQ(map.elements()[0].normal.x(), -1.0f);
@@ -140,24 +131,24 @@ TEST(LocalMap, DoesNotMixTheSidesOfAWallThinnerThanItsSpacing) {
 
 TEST(LocalMap, MergesNormalsUpToTheGivenCosine) {
   const auto turned = [](double angle) {
-    SurfacePoint p = PointAt(2.04, 0.0);
+    SurfacePoint p = PointAhead(2.04, 0.0);
     p.normal = {-std::cos(angle), std::sin(angle)};
     return p;
   };
-  EXPECT_EQ(MapOf({PointAt(2.0, 0.0), turned(std::acos(0.71))}).elements().size(), 1u);
-  EXPECT_EQ(MapOf({PointAt(2.0, 0.0), turned(std::acos(0.69))}).elements().size(), 2u);
+  EXPECT_EQ(MapOf({PointAhead(2.0, 0.0), turned(std::acos(0.71))}).elements().size(), 1u);
+  EXPECT_EQ(MapOf({PointAhead(2.0, 0.0), turned(std::acos(0.69))}).elements().size(), 2u);
 }
 
 TEST(LocalMap, DoesNotGrowByPointsOfItsElements) {
   std::vector<SurfacePoint> row;
-  for (int i = 0; i < 20; ++i) row.push_back(PointAt(2.025, 0.025 + 0.1 * i));
+  for (int i = 0; i < 20; ++i) row.push_back(PointAhead(2.025, 0.025 + 0.1 * i));
   LocalMap map = EmptyMap();
   for (int i = 0; i < 5; ++i) map.Insert(row, Pose2());
   EXPECT_EQ(map.elements().size(), 20u);
 }
 
 TEST(LocalMap, MeasuresTheDistanceToAPieceOfWall) {
-  const LocalMap map = MapOf({PointAt(2.0, 0.0)});
+  const LocalMap map = MapOf({PointAhead(2.0, 0.0)});
   EXPECT_NEAR(map.Distance({2.0, 0.0}, 0.2), 0.0, 1e-7);
   EXPECT_NEAR(map.Distance({2.1, 0.02}, 0.2), 0.1, 1e-6);     // beside its half length of 25 mm
   EXPECT_NEAR(map.Distance({1.97, 0.065}, 0.2), 0.05, 1e-6);  // 3-4-5 from its upper end
@@ -167,7 +158,7 @@ TEST(LocalMap, MeasuresTheDistanceToAPieceOfWall) {
 }
 
 TEST(LocalMap, ForgetsAllWhenCleared) {
-  LocalMap map = MapOf({PointAt(2.0, 0.0)});
+  LocalMap map = MapOf({PointAhead(2.0, 0.0)});
   EXPECT_NE(map.Nearest({2.0, 0.0}), nullptr);
   map.Clear();
   EXPECT_EQ(map.Nearest({2.0, 0.0}), nullptr);

@@ -1,11 +1,12 @@
 #include "scan_image_slam/core/sensor/odometry_buffer.h"
 
 #include "core/geometry/pose_near.h"
+#include "odometry_fixtures.h"
+#include "support_options.h"
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 #include <gtest/gtest.h>
 
@@ -14,22 +15,9 @@ namespace {
 
 using Result = OdometryBuffer::Result;
 
-constexpr Stamp kStart = FromSeconds(1000.0);
-Stamp At(double seconds) { return kStart + FromSeconds(seconds); }
-
-/// Limits that are easy to compute with, unlike the defaults.
-OdometryOptions Limits() {
-  OdometryOptions options;
-  options.max_speed = 3.0;
-  options.max_turn_rate = 7.0;
-  options.max_extrapolation = 0.25;
-  options.history = 1.0;
-  return options;
-}
-
 /// Readings every 0.1 s of a robot that drives along x at 1 m/s from x = 0.
 OdometryBuffer Straight(int readings) {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(1.0));
   for (int i = 0; i < readings; ++i) {
     EXPECT_EQ(buffer.Add(At(0.1 * i), {0.1 * i, 0.0, 0.0}), Result::kAdded);
   }
@@ -43,23 +31,13 @@ void ExpectPoseAt(const OdometryBuffer& buffer, double seconds, const Pose2& exp
 }
 
 TEST(OdometryOptions, NamesTheFieldThatIsWrong) {
-  const auto expect_refused = [](double OdometryOptions::*field, const std::string& name) {
-    const double infinity = std::numeric_limits<double>::infinity();
-    for (const double value : {0.0, -1.0, infinity, std::nan("")}) {
-      OdometryOptions options;
-      options.*field = value;
-      try {
-        options.Validate();
-        ADD_FAILURE() << name << " = " << value << " was accepted";
-      } catch (const std::invalid_argument& error) {
-        EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
-      }
-    }
-  };
-  expect_refused(&OdometryOptions::max_speed, "max_speed");
-  expect_refused(&OdometryOptions::max_turn_rate, "max_turn_rate");
-  expect_refused(&OdometryOptions::max_extrapolation, "max_extrapolation");
-  expect_refused(&OdometryOptions::history, "history");
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double value : {0.0, -1.0, infinity, std::nan("")}) {
+    ExpectRefused(&OdometryOptions::max_speed, value, "max_speed");
+    ExpectRefused(&OdometryOptions::max_turn_rate, value, "max_turn_rate");
+    ExpectRefused(&OdometryOptions::max_extrapolation, value, "max_extrapolation");
+    ExpectRefused(&OdometryOptions::history, value, "history");
+  }
 }
 
 TEST(OdometryBuffer, RefusesWrongOptions) {
@@ -69,7 +47,7 @@ TEST(OdometryBuffer, RefusesWrongOptions) {
 }
 
 TEST(OdometryBuffer, WithoutReadingsThereIsNoPose) {
-  const OdometryBuffer buffer(Limits());
+  const OdometryBuffer buffer(Limits(1.0));
   EXPECT_TRUE(buffer.empty());
   EXPECT_FALSE(buffer.ContinuousPose(At(0.0)));
   EXPECT_FALSE(buffer.OdomFromBase(At(0.0)));
@@ -83,7 +61,7 @@ TEST(OdometryBuffer, GivesTheReadingsBack) {
 }
 
 TEST(OdometryBuffer, InterpolatesAlongTheCircle) {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(1.0));
   // A quarter of a circle of radius 0.1 around (0, 0.1), slow enough not to be a reset.
   buffer.Add(At(0.0), {0.0, 0.0, 0.0});
   buffer.Add(At(0.6), {0.1, 0.1, M_PI / 2.0});
@@ -92,7 +70,7 @@ TEST(OdometryBuffer, InterpolatesAlongTheCircle) {
 }
 
 TEST(OdometryBuffer, InterpolatesBetweenTheRightReadings) {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(1.0));
   buffer.Add(At(0.0), {0.0, 0.0, 0.0});
   buffer.Add(At(0.1), {0.1, 0.0, 0.0});
   buffer.Add(At(0.3), {0.1, 0.0, 0.4});
@@ -115,7 +93,7 @@ TEST(OdometryBuffer, ExtrapolatesOnlySoFarBehindTheNewest) {
 }
 
 TEST(OdometryBuffer, StandsStillBeforeTheFirst) {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(1.0));
   buffer.Add(At(0.0), {1.0, 2.0, 0.5});
   buffer.Add(At(0.1), {1.1, 2.0, 0.5});
   ExpectPoseAt(buffer, -0.25, {1.0, 2.0, 0.5});
@@ -146,7 +124,7 @@ TEST(OdometryBuffer, KeepsAsMuchHistoryAsItIsTold) {
 }
 
 TEST(OdometryBuffer, KeepsTwoReadingsHoweverOld) {
-  OdometryOptions options = Limits();
+  OdometryOptions options = Limits(1.0);
   options.history = 0.01;
   OdometryBuffer buffer(options);
   for (int i = 0; i < 5; ++i) buffer.Add(At(0.1 * i), {0.1 * i, 0.0, 0.0});
@@ -164,13 +142,13 @@ TEST(OdometryBuffer, ClearForgetsTheReadingsAndTheirTime) {
 }
 
 TEST(OdometryBuffer, JitteringStampsDoNotMakeTheRobotFlyOff) {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(1.0));
   for (int i = 0; i < 30; ++i) buffer.Add(At(i / 30.0), {0.02 * i, 0.0, 0.0});  // 0.6 m/s
   buffer.Add(At(29.0 / 30.0 + 0.001), {0.60, 0.0, 0.0});
   const double newest = 29.0 / 30.0 + 0.001;
   const std::optional<Pose2> ahead = buffer.ContinuousPose(At(newest + 0.02));
   ASSERT_TRUE(ahead);
-  EXPECT_LT(ahead->x, 0.60 + Limits().max_speed * 0.02);
+  EXPECT_LT(ahead->x, 0.60 + Limits(1.0).max_speed * 0.02);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "core/geometry/pose_near.h"
+#include "odometry_fixtures.h"
 #include "scan_image_slam/core/sensor/odometry_buffer.h"
 
 #include <cmath>
@@ -10,21 +11,9 @@ namespace {
 
 using Result = OdometryBuffer::Result;
 
-constexpr Stamp kStart = FromSeconds(1000.0);
-Stamp At(double seconds) { return kStart + FromSeconds(seconds); }
-
-OdometryOptions Limits() {
-  OdometryOptions options;
-  options.max_speed = 3.0;
-  options.max_turn_rate = 7.0;
-  options.max_extrapolation = 0.25;
-  options.history = 10.0;
-  return options;
-}
-
 /// A robot at (10, 5) that drives along y at 1 m/s: readings at 0 and 0.1 s.
 OdometryBuffer Northwards() {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(10.0));
   buffer.Add(At(0.0), {10.0, 5.0, M_PI / 2.0});
   buffer.Add(At(0.1), {10.0, 5.1, M_PI / 2.0});
   return buffer;
@@ -32,7 +21,7 @@ OdometryBuffer Northwards() {
 
 /// What becomes of a step in 0.1 s from rest at the origin; the slack is 0.05 m and 0.05 rad.
 Result ResultOfStep(const Pose2& step) {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(10.0));
   buffer.Add(At(0.0), {});
   buffer.Add(At(0.1), {});
   return buffer.Add(At(0.2), step);
@@ -51,7 +40,7 @@ TEST(OdometryReset, IsATurnFasterThanTheRobot) {
 }
 
 TEST(OdometryReset, ATurnAcrossPiIsNone) {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(10.0));
   buffer.Add(At(0.0), {0.0, 0.0, 3.1});
   EXPECT_EQ(buffer.Add(At(0.1), {0.0, 0.0, -3.1}), Result::kAdded);
 }
@@ -95,7 +84,7 @@ TEST(OdometryReset, ASecondResetStartsTheFrameAnew) {
 }
 
 TEST(OdometryReset, AfterOneReadingNothingIsKnownOfTheVelocity) {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(10.0));
   buffer.Add(At(0.0), {10.0, 5.0, 1.0});
   EXPECT_EQ(buffer.Add(At(0.1), {}), Result::kReset);
   ExpectPoseNear(*buffer.ContinuousPose(At(0.1)), {10.0, 5.0, 1.0});
@@ -109,7 +98,7 @@ TEST(OdometryReset, TheVelocityIsKeptNoLongerThanItIsTrusted) {
 }
 
 TEST(OdometryReset, JitteringStampsAreNone) {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(10.0));
   buffer.Add(At(0.0), {});
   for (int i = 1; i < 60; ++i) {  // 2 m/s at 30 Hz; every second reading comes 30 ms late
     const double late = i % 2 == 0 ? 0.0 : 0.030;
@@ -118,7 +107,7 @@ TEST(OdometryReset, JitteringStampsAreNone) {
 }
 
 TEST(OdometryReset, AGapDoesNotBluntTheEyeForTheNextOne) {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(10.0));
   for (int i = 0; i < 10; ++i) buffer.Add(At(0.1 * i), {});
   EXPECT_EQ(buffer.Add(At(100.0), {}), Result::kAdded);
   EXPECT_EQ(buffer.Add(At(100.1), {1.0, 0.0, 0.0}), Result::kReset);
@@ -134,7 +123,7 @@ TEST(OdometryReset, AfterClearTheFrameIsThatOfTheReadings) {
 }
 
 TEST(OdometryReset, ClearForgetsTheUsualPeriod) {
-  OdometryBuffer buffer(Limits());
+  OdometryBuffer buffer(Limits(10.0));
   buffer.Add(At(0.0), {});
   buffer.Add(At(1.0), {});  // once a second
   buffer.Clear();

@@ -46,7 +46,10 @@ class LoopCloser {
   /// map_from_base of each keyframe.
   const std::vector<Pose2>& poses() const { return poses_; }
   const std::vector<GraphConstraint>& constraints() const { return constraints_; }
-  int closures() const { return closures_; }
+  /// Places that were recognised: what the graph holds beside the chain of keyframes.
+  int closures() const {
+    return keyframes_.empty() ? 0 : static_cast<int>(constraints_.size() + 1 - keyframes_.size());
+  }
 
  private:
   /// Keyframes begin .. end - 1.
@@ -60,7 +63,7 @@ class LoopCloser {
   std::vector<std::pair<int, int>> Candidates(int id) const;
   LoopQuery MakeQuery(int id, double way) const;
   std::optional<GraphConstraint> Close(int id, int submap_id, int near_id, double way);
-  bool Optimize(const std::vector<GraphConstraint>& closures);
+  void Optimize(const std::vector<GraphConstraint>& closures);
 
   LoopCloserOptions options_;
   std::vector<std::shared_ptr<const Keyframe>> keyframes_;
@@ -74,7 +77,6 @@ class LoopCloser {
   };
   std::map<int, CachedSubmap> cache_;
   int use_count_ = 0;
-  int closures_ = 0;
   int closures_since_optimization_ = 0;
 };
 

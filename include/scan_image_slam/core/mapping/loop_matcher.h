@@ -13,7 +13,6 @@ namespace scan_image_slam {
 
 struct LoopMatcherOptions {
   RangeNoise noise;
-  EdgeMapOptions edge_map;
   RefinementOptions refinement;
   double search_spacing = 0.2;  ///< between the points that the search looks at [m]
   double min_score = 0.25;      ///< mean score of the points at the best pose of a search [-]
