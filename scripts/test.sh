@@ -65,8 +65,9 @@ run_live() {
   fi
 }
 
+# Warnings are the business of the other build: sanitizers make the compiler see ghosts.
 run_sanitize() {
-  BUILD_TARGETS=tests "$here/build.sh" "$sanitized" -DSCAN_IMAGE_SLAM_WERROR=ON \
+  BUILD_TARGETS=tests "$here/build.sh" "$sanitized" \
     -DSCAN_IMAGE_SLAM_SANITIZE=address,undefined -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1"
   # Libraries of ROS leak what lives as long as the program.
