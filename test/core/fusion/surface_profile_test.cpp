@@ -50,7 +50,7 @@ void ExpectWall(const SurfaceProfile& profile, const BearingImage& image, double
   }
 }
 
-const Column& ColumnAt(const SurfaceProfile& profile, const BearingImage& image, double bearing) {
+Column ColumnAt(const SurfaceProfile& profile, const BearingImage& image, double bearing) {
   return profile.columns[std::lround(image.Column(bearing))];
 }
 
@@ -122,7 +122,7 @@ TEST(SurfaceProfile, ACutIsNotASurface) {
   const FusedModel right = Sweep(349.5, 359.5, 1, range);
   model.beams.insert(model.beams.end(), right.beams.begin(), right.beams.end());
   const BearingImage image = ImageFrom(0, 0);
-  const Column& ahead = ColumnAt(ProfileOf(model, image), image, 0.5 * kDegree);
+  const Column ahead = ColumnAt(ProfileOf(model, image), image, 0.5 * kDegree);
   EXPECT_NEAR(ahead.distance, 9.0, 0.01);
 }
 
