@@ -185,11 +185,11 @@ ParameterValue ParameterSet::Checked(const std::string& name, const ParameterVal
   return converted;
 }
 
-void ParameterSet::Set(const std::string& name, const ParameterValue& value) {
+void ParameterSet::Set(const std::string& name, const ParameterValue& value) const {
   Get(name).set(Checked(name, value));
 }
 
-void ParameterSet::Set(const std::map<std::string, ParameterValue>& values) {
+void ParameterSet::Set(const std::map<std::string, ParameterValue>& values) const {
   for (const auto& [name, value] : values) Set(name, value);
 }
 

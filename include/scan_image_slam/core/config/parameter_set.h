@@ -75,10 +75,10 @@ class ParameterSet {
   /// The value in the parameter's type. Throws ParameterError if the parameter is unknown, of
   /// another type or out of range.
   ParameterValue Checked(const std::string& name, const ParameterValue& value) const;
-  /// Sets one parameter to its checked value.
-  void Set(const std::string& name, const ParameterValue& value);
+  /// Sets the field that a parameter points to, to its checked value.
+  void Set(const std::string& name, const ParameterValue& value) const;
   /// Sets several, by name; stops at the first that is wrong.
-  void Set(const std::map<std::string, ParameterValue>& values);
+  void Set(const std::map<std::string, ParameterValue>& values) const;
 
   /// The parameters whose values, as text, are not those of the same parameters in `other`.
   ParameterSet DifferentFrom(const ParameterSet& other) const;
