@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The three nodes as nodelets of one manager: loaded, unloaded, loaded again while scans come."""
 
+import os
 import signal
 import subprocess
 import threading
@@ -97,6 +98,9 @@ class NodeletsTest(unittest.TestCase):
             wait_for(lambda node=node: published(OUTPUTS[node]), 'the nodelet ' + node)
         return loaders
 
+    def threads(self):
+        return len(os.listdir(f'/proc/{self.pid}/task'))
+
     def wait_pose_of(self, stamp):
         self.poses.find(lambda m: m.header.stamp.to_sec() > stamp, f'a pose after {stamp}')
 
@@ -106,6 +110,7 @@ class NodeletsTest(unittest.TestCase):
         drive.start()
         self.addCleanup(drive.stop)
         self.wait_pose_of(START)
+        threads = []
         for node in list(TYPES) * 2:
             self.assertEqual(loaders[node].stop(), 0)
             wait_for(lambda: not published(OUTPUTS[node]), node + ' to go')
@@ -113,6 +118,8 @@ class NodeletsTest(unittest.TestCase):
                              [other for other in TYPES if other != node])
             loaders.update(self.start(node))
             self.wait_pose_of(drive.time)
+            threads.append(self.threads())
+        self.assertEqual(threads, threads[:1] * len(threads), 'a thread is left behind')
 
     def test_they_talk_within_the_process(self):
         self.start(*TYPES)
