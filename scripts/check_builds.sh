@@ -104,6 +104,14 @@ for file in "$repository"/launch/*.launch; do
   grep -q /mapper "$work/log"
 done
 
+say "nodelets"
+quietly sourced rospack plugins --attrib=plugin nodelet
+plugins=$(awk '$1 == "scan_image_slam" {print $2}' "$work/log")
+[ "$plugins" = "$install/share/scan_image_slam/nodelet_plugins.xml" ]
+library=$install/$(sed -n 's/.*<library path="\(.*\)">.*/\1/p' "$plugins").so
+quietly sourced ldd "$library"
+if grep 'not found' "$work/log" >&2; then exit 1; fi
+
 say "another package against the installed headers and libraries"
 mkdir -p "$work/user"
 cat >"$work/user/CMakeLists.txt" <<'END'

@@ -12,8 +12,9 @@ debian_packages=(
   # build
   catkin cmake g++ ninja-build ccache
   libceres-dev libcli11-dev libeigen3-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev
-  libcv-bridge-dev libdiagnostic-updater-dev libimage-transport-dev libmap-msgs-dev
-  libmessage-filters-dev libnav-msgs-dev librosbag-dev libroscpp-dev librostest-dev
+  libcv-bridge-dev libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev
+  libimage-transport-dev libmap-msgs-dev libmessage-filters-dev libnav-msgs-dev libnodelet-dev
+  libnodeletlib-dev librosbag-dev libroscpp-dev librostest-dev
   libsensor-msgs-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev libtf2-ros-dev
   libvisualization-msgs-dev pluginlib-dev
   # message definitions, which the libraries above only recommend
@@ -21,6 +22,7 @@ debian_packages=(
   ros-message-runtime ros-nav-msgs ros-roscpp-msg ros-rosgraph-msgs ros-sensor-msgs ros-std-msgs
   ros-std-srvs ros-tf2-msgs ros-visualization-msgs
   # run
+  libnodeletlib-tools python3-dynamic-reconfigure
   python3-rosbag python3-roslaunch python3-rosmsg python3-rosnode python3-rosparam
   python3-rosservice python3-rostopic rosbash rosout rospack-tools rviz
   python3-diagnostic-msgs python3-geometry-msgs python3-map-msgs python3-nav-msgs
@@ -36,7 +38,8 @@ debian_test_packages=(
 ubuntu_packages=(
   cmake g++ ninja-build ccache
   libceres-dev libcli11-dev libeigen3-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev
-  ros-noetic-catkin ros-noetic-cv-bridge ros-noetic-diagnostic-updater ros-noetic-image-transport
+  ros-noetic-catkin ros-noetic-cv-bridge ros-noetic-diagnostic-updater
+  ros-noetic-dynamic-reconfigure ros-noetic-image-transport ros-noetic-nodelet ros-noetic-pluginlib
   ros-noetic-map-msgs ros-noetic-message-filters ros-noetic-nav-msgs ros-noetic-rosbag
   ros-noetic-roscpp ros-noetic-roslaunch ros-noetic-rosbash ros-noetic-rostest ros-noetic-rviz
   ros-noetic-sensor-msgs ros-noetic-std-srvs ros-noetic-tf2 ros-noetic-tf2-msgs ros-noetic-tf2-ros

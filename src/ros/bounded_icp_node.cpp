@@ -1,12 +1,14 @@
 #include "scan_image_slam/ros/bounded_icp_node.h"
 
 #include "scan_image_slam/ros/node_parameters.h"
+#include "scan_image_slam/ros/publish_shared.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 #include "scan_image_slam/ros/slam_messages.h"
 #include <scan_image_slam/ScanMatch.h>
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <ros/console.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -39,7 +41,7 @@ const char* StatusText(MatchStatus status) {
 
 BoundedIcpNode::Options BoundedIcpNode::ReadOptions(const ros::NodeHandle& private_node) {
   Options options;
-  ParameterSet set = BoundedIcpParameters(&options.bounded_icp, &options.node);
+  ParameterSet set = options.Parameters();
   ReadParameters(private_node, &set);
   return options;
 }
@@ -49,7 +51,9 @@ BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_nod
       bounded_icp_(options_.bounded_icp),
       gate_(options_.node.odometry.max_wait, kMaxWaitingModels),
       watch_(node, private_node),
-      tf_listener_(tf_, node) {
+      tf_listener_(tf_, node),
+      live_parameters_(private_node, Options().Parameters(), options_.Parameters(),
+                       [this](const LiveParameters::Values& values) { Take(values); }) {
   match_publisher_ = node.advertise<ScanMatch>("scan_match", kModelQueue);
   window_publisher_ = node.advertise<visualization_msgs::MarkerArray>("search_window", 1);
   odometry_ = std::make_unique<OdometryFeed>(
@@ -66,6 +70,15 @@ BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_nod
   watch_.AddValue("models dropped", [this] { return std::to_string(gate_.dropped()); });
   release_timer_ = node.createWallTimer(ros::WallDuration(0.005),
                                         [this](const ros::WallTimerEvent&) { ReleaseModels(); });
+}
+
+/// A user has changed parameters: they count from the next model on.
+void BoundedIcpNode::Take(const LiveParameters::Values& values) {
+  Options options = options_;
+  options.Parameters().Set(values);
+  bounded_icp_.SetOptions(options.bounded_icp);
+  gate_.set_max_wait(options.node.odometry.max_wait);
+  options_ = options;
 }
 
 void BoundedIcpNode::OnOdometry(Stamp stamp, const Pose2& odom_from_base) {
@@ -114,7 +127,7 @@ void BoundedIcpNode::Publish(const MatchedMotion& match) {
   last_match_ = match;
   ++matches_;
   if (match.status == MatchStatus::kOnWindowEdge) ++window_edge_hits_;
-  match_publisher_.publish(ToMessage(match, options_.node.odometry.base_frame));
+  PublishShared(match_publisher_, ToMessage(match, options_.node.odometry.base_frame));
   if (window_publisher_.getNumSubscribers() > 0) PublishWindow(match);
 }
 
@@ -153,7 +166,7 @@ void BoundedIcpNode::PublishWindow(const MatchedMotion& match) {
   result.scale.z = 0.03;
   visualization_msgs::MarkerArray array;
   array.markers = {marker, result};
-  window_publisher_.publish(array);
+  PublishShared(window_publisher_, std::move(array));
 }
 
 }  // namespace scan_image_slam

@@ -1,5 +1,7 @@
 #include "scan_image_slam/ros/map_publisher.h"
 
+#include "scan_image_slam/ros/publish_shared.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -81,10 +83,10 @@ void MapPublisher::Publish(OccupancyGrid* grid, const ros::Time& stamp) {
       update.data.insert(update.data.end(), row + (changed_.x.begin - box_.x.begin),
                          row + (changed_.x.end - box_.x.begin));
     }
-    updates_publisher_.publish(update);
+    PublishShared(updates_publisher_, std::move(update));
   }
-  map_publisher_.publish(map_);
-  metadata_publisher_.publish(map_.info);
+  PublishShared(map_publisher_, map_);
+  PublishShared(metadata_publisher_, map_.info);
   changed_ = CellBox();
   resized_ = false;
 }

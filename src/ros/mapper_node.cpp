@@ -3,6 +3,7 @@
 #include "scan_image_slam/core/mapping/map_file.h"
 #include "scan_image_slam/ros/graph_markers.h"
 #include "scan_image_slam/ros/node_parameters.h"
+#include "scan_image_slam/ros/publish_shared.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 #include "scan_image_slam/ros/slam_messages.h"
 
@@ -37,7 +38,7 @@ std::filesystem::path PathInFolder(const std::string& folder, const std::string&
 
 MapperNode::Options MapperNode::ReadOptions(const ros::NodeHandle& private_node) {
   Options options;
-  ParameterSet set = MapperParameters(&options.mapper, &options.loop_closer, &options.node);
+  ParameterSet set = options.Parameters();
   ReadParameters(private_node, &set);
   return options;
 }
@@ -52,7 +53,9 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
       trajectory_(node, "trajectory", options_.node.map_frame, options_.node.trajectory_spacing),
       encoder_trajectory_(node, "encoder_trajectory", options_.node.map_frame,
                           options_.node.trajectory_spacing),
-      pairs_(kQueue) {
+      pairs_(kQueue),
+      live_parameters_(private_node, Options().Parameters(), options_.Parameters(),
+                       [this](const LiveParameters::Values& values) { Take(values); }) {
   pose_publisher_ = node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
   command_publisher_ = node.advertise<std_msgs::String>("syscommand", 1);
   graph_publisher_ = node.advertise<visualization_msgs::MarkerArray>("pose_graph", 1, true);
@@ -73,6 +76,17 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
                                     [this](const ros::WallTimerEvent&) { PublishMap(); });
 }
 
+/// A user has changed parameters: they count from the next match on.
+void MapperNode::Take(const LiveParameters::Values& values) {
+  Options options = options_;
+  options.Parameters().Set(values);
+  mapper_.SetOptions(options.mapper);
+  loop_closing_.SetOptions(options.loop_closer);
+  transform_publisher_.SetTiming(options.node);
+  map_timer_.setPeriod(ros::WallDuration(options.node.map_update_interval));
+  options_ = options;
+}
+
 void MapperNode::OnMatch(const ScanMatchConstPtr& message) {
   watch_.Arrived(match_subscriber_.getTopic());
   try {
@@ -91,7 +105,7 @@ void MapperNode::OnMatch(const ScanMatchConstPtr& message) {
 
 void MapperNode::PublishPose(const MapPose& pose) {
   last_pose_ = pose;
-  pose_publisher_.publish(ToMessage(pose, options_.node.map_frame));
+  PublishShared(pose_publisher_, ToMessage(pose, options_.node.map_frame));
   trajectory_.Add(pose.stamp, pose.map_from_base);
   if (pose.map_from_odom) {
     has_encoders_ = true;
@@ -146,7 +160,7 @@ void MapperNode::PublishMap() {
   }
   map_publisher_.Publish(&mapper_.grid(), ros::Time::now());
   if (graph_ && graph_publisher_.getNumSubscribers() > 0) {
-    graph_publisher_.publish(ToMarkers(*graph_, options_.node.map_frame, ros::Time::now()));
+    PublishShared(graph_publisher_, ToMarkers(*graph_, options_.node.map_frame, ros::Time::now()));
   }
   trajectory_.Publish();
   encoder_trajectory_.Publish();
@@ -165,7 +179,7 @@ bool MapperNode::Reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&
   encoder_trajectory_.Clear();
   std_msgs::String command;
   command.data = "reset";
-  command_publisher_.publish(command);
+  PublishShared(command_publisher_, command);
   response.success = true;
   response.message = "map and matching start over";
   return true;

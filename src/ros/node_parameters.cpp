@@ -1,11 +1,14 @@
 #include "scan_image_slam/ros/node_parameters.h"
 
+#include "scan_image_slam/core/config/foreign_names.h"
+
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <XmlRpcValue.h>
+#include <ros/console.h>
 #include <ros/param.h>
 
 namespace scan_image_slam {
@@ -52,6 +55,11 @@ void ReadParameters(const ros::NodeHandle& private_node, ParameterSet* set) {
     if (full_name.rfind(prefix, 0) != 0) continue;
     const std::string name = full_name.substr(prefix.size());
     if (BelongsToLibrary(name)) continue;
+    const ForeignName* foreign = set->Has(name) ? nullptr : FindForeignName(name);
+    if (foreign != nullptr) {
+      ROS_WARN_STREAM(full_name << ": " << Explain(*foreign));
+      continue;
+    }
     XmlRpc::XmlRpcValue value;
     if (!ros::param::get(full_name, value)) continue;  // deleted in the meantime
     set->Set(name, ToValue(full_name, value));

@@ -1,5 +1,6 @@
 #include "scan_image_slam/ros/path_publisher.h"
 
+#include "scan_image_slam/ros/publish_shared.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 #include "scan_image_slam/ros/slam_messages.h"
 
@@ -34,7 +35,7 @@ void PathPublisher::Add(Stamp stamp, const Pose2& pose) {
 
 void PathPublisher::Publish() {
   if (!grown_) return;
-  publisher_.publish(path_);
+  PublishShared(publisher_, path_);
   grown_ = false;
 }
 

@@ -3,12 +3,14 @@
 #include "scan_image_slam/core/fusion/fusion_picture.h"
 #include "scan_image_slam/ros/image_conversion.h"
 #include "scan_image_slam/ros/node_parameters.h"
+#include "scan_image_slam/ros/publish_shared.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 #include "scan_image_slam/ros/slam_messages.h"
 #include <scan_image_slam/IcpModel.h>
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <cv_bridge/cv_bridge.h>
 #include <ros/console.h>
@@ -38,7 +40,7 @@ std_msgs::ColorRGBA EdgeColour(int sign) {
 
 ScanImageFusionNode::Options ScanImageFusionNode::ReadOptions(const ros::NodeHandle& private_node) {
   Options options;
-  ParameterSet set = FusionParameters(&options.fusion, &options.node);
+  ParameterSet set = options.Parameters();
   ReadParameters(private_node, &set);
   try {
     options.fusion.Validate();
@@ -57,7 +59,9 @@ ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle p
       laser_mount_("laser", options_.node.laser, false, options_.node.odometry.base_frame, &tf_,
                    &watch_),
       camera_mount_("camera", options_.node.camera, true, options_.node.odometry.base_frame, &tf_,
-                    &watch_) {
+                    &watch_),
+      live_parameters_(private_node, Options().Parameters(), options_.Parameters(),
+                       [this](const LiveParameters::Values& values) { Take(values); }) {
   model_publisher_ = node.advertise<IcpModel>("icp_model", kModelQueue);
   edges_publisher_ = node.advertise<visualization_msgs::MarkerArray>("fusion/edges", 1);
   picture_publisher_ = image_transport::ImageTransport(node).advertise("fusion/image", 1);
@@ -74,6 +78,15 @@ ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle p
   // Scans that wait for the encoders are looked at again while nothing arrives.
   release_timer_ = node.createWallTimer(ros::WallDuration(0.005),
                                         [this](const ros::WallTimerEvent&) { ReleaseScans(); });
+}
+
+/// A user has changed parameters: they count from the next scan on.
+void ScanImageFusionNode::Take(const LiveParameters::Values& values) {
+  Options options = options_;
+  options.Parameters().Set(values);
+  fusion_.SetOptions(options.fusion);
+  gate_.set_max_wait(options.node.odometry.max_wait);
+  options_ = options;
 }
 
 void ScanImageFusionNode::SubscribeCamera(ros::NodeHandle node, const std::string& name) {
@@ -185,7 +198,7 @@ void ScanImageFusionNode::ReleaseScans() {
 }
 
 void ScanImageFusionNode::Publish(const FusedModel& model) {
-  model_publisher_.publish(ToMessage(model, options_.node.odometry.base_frame));
+  PublishShared(model_publisher_, ToMessage(model, options_.node.odometry.base_frame));
   if (!model.has_image) return;
   if (picture_publisher_.getNumSubscribers() > 0) PublishPicture(model);
   if (edges_publisher_.getNumSubscribers() > 0) PublishEdges(model);
@@ -219,7 +232,7 @@ void ScanImageFusionNode::PublishEdges(const FusedModel& model) {
   }
   visualization_msgs::MarkerArray array;
   array.markers.push_back(marker);
-  edges_publisher_.publish(array);
+  PublishShared(edges_publisher_, std::move(array));
 }
 
 }  // namespace scan_image_slam

@@ -15,6 +15,12 @@ TransformPublisher::TransformPublisher(ros::NodeHandle node, const MapperNodeOpt
 
 TransformPublisher::~TransformPublisher() { spinner_.stop(); }
 
+void TransformPublisher::SetTiming(const MapperNodeOptions& options) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  options_.tf_delay = options.tf_delay;
+  timer_.setPeriod(ros::WallDuration(options.transform_publish_period));
+}
+
 void TransformPublisher::Set(const std::string& child, const Pose2& map_from_child) {
   const std::lock_guard<std::mutex> lock(mutex_);
   child_ = child;
@@ -23,15 +29,17 @@ void TransformPublisher::Set(const std::string& child, const Pose2& map_from_chi
 
 void TransformPublisher::Publish() {
   geometry_msgs::TransformStamped transform;
+  ros::Duration delay;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     transform.header.frame_id = options_.map_frame;
     transform.child_frame_id = child_;
     transform.transform = ToTransformMessage(map_from_child_);
+    delay.fromSec(options_.tf_delay);
   }
   const ros::Time now = ros::Time::now();
   if (now.isZero()) return;  // simulated time has not begun
-  transform.header.stamp = now + ros::Duration(options_.tf_delay);
+  transform.header.stamp = now + delay;
   // While simulated time stands still there is nothing new to say.
   if (transform.header.stamp == last_stamp_) return;
   last_stamp_ = transform.header.stamp;

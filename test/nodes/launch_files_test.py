@@ -90,6 +90,28 @@ class LaunchFilesTest(unittest.TestCase):
         self.assertEqual(value(loaded, '/scan_image_fusion/image_transport'), 'compressed')
         self.assertEqual(value(loaded, '/bounded_icp/odom_source'), 'topic')
 
+    def test_slam_with_nodelets_of_a_manager_of_its_own(self):
+        loaded = load('slam.launch', nodelets='true', scan_topic='front/scan')
+        self.expect_programs(loaded)
+        nodes = {node.name: node for node in loaded.nodes}
+        self.assertEqual(nodes.pop('scan_image_slam_manager').args, 'manager')
+        self.assertEqual({name: node.args for name, node in nodes.items()}, {
+            name: f'load scan_image_slam/{nodelet} scan_image_slam_manager'
+            for name, nodelet in zip(NODES, ('ScanImageFusionNodelet', 'BoundedIcpNodelet',
+                                             'MapperNodelet'))})
+        self.assertEqual(types(loaded), {('nodelet', 'nodelet')})
+        remaps = dict(nodes['scan_image_fusion'].remap_args)
+        self.assertEqual(remaps[next(key for key in remaps if key.endswith('scan'))].lstrip('/'),
+                         'front/scan')
+        self.assertEqual(value(loaded, '/mapper/base_frame'), 'base_link')
+
+    def test_slam_with_nodelets_of_a_manager_that_runs_already(self):
+        loaded = load('slam.launch', nodelets='true', manager='camera/manager')
+        self.assertEqual({node.name for node in loaded.nodes}, set(NODES))
+        for node in loaded.nodes:
+            self.assertEqual(node.args.split()[0], 'load')
+            self.assertEqual(node.args.split()[-1], 'camera/manager')
+
     def test_slam_takes_the_path_of_a_configuration(self):
         path = os.path.join(PACKAGE, 'config', 'paper.yaml')
         self.assertEqual(value(load('slam.launch', config=path), '/bounded_icp/reference'),

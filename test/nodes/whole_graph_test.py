@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""A simulated drive played to the three nodes, and the same bag through slam_offline."""
+"""A simulated drive played to the three nodes, and the same bag through slam_offline.
+
+With the parameter ~manager, the nodes are nodelets of that manager."""
 
 import json
 import math
@@ -52,7 +54,8 @@ class WholeGraphTest(unittest.TestCase):
         cls.clock = Recorder('/clock', Clock, key=lambda m: m.clock.to_sec())
         cls.corrections = []  # (clock, stamp) at the arrival of map -> odom [s]
         subscriber = rospy.Subscriber('/tf', TFMessage, cls.on_transforms, queue_size=1000)
-        Player(cls.bag, READERS).wait()
+        manager = rospy.get_param('~manager', None)
+        Player(cls.bag, [(manager or node, topic) for node, topic in READERS]).wait()
         wait_for(lambda: cls.poses.messages and
                  cls.poses.messages[-1].header.stamp.to_nsec() == cls.scans[-1], 'the last pose')
         subscriber.unregister()

@@ -38,7 +38,7 @@ class WrongParametersTest(unittest.TestCase):
             self.assertIn(word, output)
 
     def expect_running(self, node, parameters, *arguments):
-        """The node comes up and ends in order when it is told to."""
+        """The node comes up and ends in order when it is told to; gives what it said."""
         process = self.start(node, parameters, None, *arguments)
 
         def is_up():
@@ -51,13 +51,24 @@ class WrongParametersTest(unittest.TestCase):
             process.send_signal(signal.SIGINT)
             output, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 0, output)
+        return output
 
     def test_unknown(self):
         self.expect_end('scan_image_fusion', {'min_rnage': 0.2},
                         '/scan_image_fusion/min_rnage: unknown parameter', 'did you mean min_range')
         self.expect_end('bounded_icp', {'window/min_distnace': 0.2},
                         '/bounded_icp/window/min_distnace: unknown', 'window/min_distance')
-        self.expect_end('mapper', {'delta': 0.2}, '/mapper/delta: unknown parameter')
+        self.expect_end('mapper', {'alpha': 0.2}, '/mapper/alpha: unknown parameter')
+
+    def test_names_of_other_packages_are_answered_with_ours(self):
+        output = self.expect_running('mapper', {'delta': 0.2, 'particles': 30, 'map_size': 2048})
+        self.assertIn('/mapper/delta: a parameter of gmapping, not used; use mapper/resolution',
+                      output)
+        self.assertIn('/mapper/particles: a parameter of gmapping, not used; there is nothing',
+                      output)
+        self.assertIn('/mapper/map_size: a parameter of hector_mapping', output)
+        output = self.expect_running('scan_image_fusion', {'maxUrange': 8.0})
+        self.assertIn('use mapper/map_max_range and scan_image_fusion/max_range', output)
 
     def test_mistyped(self):
         self.expect_end('scan_image_fusion', {'use_camera': 'yes please'},

@@ -1,4 +1,4 @@
-"""list_parameters prints what config/default.yaml holds, and slam_offline takes it back."""
+"""list_parameters prints what config/default.yaml and docs/parameters.md hold."""
 import os
 import unittest
 
@@ -6,7 +6,9 @@ import yaml
 
 from tools import ToolTest, read, run
 
-DEFAULT = os.path.join(os.environ["SCAN_IMAGE_SLAM_SOURCE"], "config", "default.yaml")
+SOURCE = os.environ["SCAN_IMAGE_SLAM_SOURCE"]
+DEFAULT = os.path.join(SOURCE, "config", "default.yaml")
+REFERENCE = os.path.join(SOURCE, "docs", "parameters.md")
 
 
 class ListParameters(ToolTest):
@@ -14,6 +16,11 @@ class ListParameters(ToolTest):
         result = run("list_parameters")
         self.expect(result, 0)
         self.assertEqual(result.stdout, read(DEFAULT))
+
+    def test_prints_the_reference(self):
+        result = run("list_parameters", "--markdown")
+        self.expect(result, 0)
+        self.assertEqual(result.stdout, read(REFERENCE))
 
     def test_is_yaml_with_a_section_for_each_node(self):
         sections = yaml.safe_load(run("list_parameters").stdout)

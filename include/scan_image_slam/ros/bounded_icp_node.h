@@ -4,6 +4,7 @@
 #include "scan_image_slam/core/matching/bounded_icp.h"
 #include "scan_image_slam/core/sensor/odometry_gate.h"
 #include "scan_image_slam/ros/input_watch.h"
+#include "scan_image_slam/ros/live_parameters.h"
 #include "scan_image_slam/ros/odometry_feed.h"
 #include "scan_image_slam/ros/time_guard.h"
 #include <scan_image_slam/IcpModel.h>
@@ -27,8 +28,10 @@ class BoundedIcpNode {
   struct Options {
     BoundedIcpOptions bounded_icp;
     BoundedIcpNodeOptions node;
+    ParameterSet Parameters() { return BoundedIcpParameters(&bounded_icp, &node); }
   };
   static Options ReadOptions(const ros::NodeHandle& private_node);
+  void Take(const LiveParameters::Values& values);
   void OnModel(const IcpModelConstPtr& message);
   void OnOdometry(Stamp stamp, const Pose2& odom_from_base);
   void OnCommand(const std_msgs::StringConstPtr& message);
@@ -54,6 +57,7 @@ class BoundedIcpNode {
   ros::Subscriber command_subscriber_;
   std::unique_ptr<OdometryFeed> odometry_;
   ros::WallTimer release_timer_;
+  LiveParameters live_parameters_;
 };
 
 }  // namespace scan_image_slam

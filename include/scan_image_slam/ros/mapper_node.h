@@ -4,6 +4,7 @@
 #include "scan_image_slam/core/mapping/loop_closing_thread.h"
 #include "scan_image_slam/core/mapping/mapper.h"
 #include "scan_image_slam/ros/input_watch.h"
+#include "scan_image_slam/ros/live_parameters.h"
 #include "scan_image_slam/ros/map_publisher.h"
 #include "scan_image_slam/ros/path_publisher.h"
 #include "scan_image_slam/ros/transform_publisher.h"
@@ -39,8 +40,10 @@ class MapperNode {
     MapperOptions mapper;
     LoopCloserOptions loop_closer;
     MapperNodeOptions node;
+    ParameterSet Parameters() { return MapperParameters(&mapper, &loop_closer, &node); }
   };
   static Options ReadOptions(const ros::NodeHandle& private_node);
+  void Take(const LiveParameters::Values& values);
   void OnMatch(const ScanMatchConstPtr& message);
   void OnMatchedModel(const IcpModelConstPtr& model, const ScanMatchConstPtr& match);
   void OnInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
@@ -78,6 +81,7 @@ class MapperNode {
   message_filters::Subscriber<ScanMatch> paired_match_subscriber_;
   message_filters::TimeSynchronizer<IcpModel, ScanMatch> pairs_;
   ros::WallTimer map_timer_;
+  LiveParameters live_parameters_;
 };
 
 }  // namespace scan_image_slam

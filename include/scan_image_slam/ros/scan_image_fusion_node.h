@@ -4,6 +4,7 @@
 #include "scan_image_slam/core/fusion/scan_image_fusion.h"
 #include "scan_image_slam/core/sensor/odometry_gate.h"
 #include "scan_image_slam/ros/input_watch.h"
+#include "scan_image_slam/ros/live_parameters.h"
 #include "scan_image_slam/ros/odometry_feed.h"
 #include "scan_image_slam/ros/sensor_mount.h"
 #include "scan_image_slam/ros/time_guard.h"
@@ -31,8 +32,10 @@ class ScanImageFusionNode {
   struct Options {
     ScanImageFusionOptions fusion;
     ScanImageFusionNodeOptions node;
+    ParameterSet Parameters() { return FusionParameters(&fusion, &node); }
   };
   static Options ReadOptions(const ros::NodeHandle& private_node);
+  void Take(const LiveParameters::Values& values);
   void SubscribeCamera(ros::NodeHandle node, const std::string& name);
   void OnScan(const sensor_msgs::LaserScanConstPtr& message);
   void OnCameraInfo(const sensor_msgs::CameraInfoConstPtr& message);
@@ -66,6 +69,7 @@ class ScanImageFusionNode {
   image_transport::Subscriber image_subscriber_;
   std::unique_ptr<OdometryFeed> odometry_;
   ros::WallTimer release_timer_;
+  LiveParameters live_parameters_;
 };
 
 }  // namespace scan_image_slam

@@ -20,6 +20,9 @@ class TransformPublisher {
   TransformPublisher(ros::NodeHandle node, const MapperNodeOptions& options);
   ~TransformPublisher();
 
+  /// Takes over the period and the delay, and nothing else.
+  void SetTiming(const MapperNodeOptions& options);
+
   /// From now on `map_frame` -> `child`, e.g. the odometry's frame.
   void Set(const std::string& child, const Pose2& map_from_child);
 

@@ -61,11 +61,7 @@ std::string Comment(const std::string& text, const std::string& indent) {
 std::string Describe(const Parameter& p) {
   std::string text = p.description;
   if (p.unit != "-") text += " [" + p.unit + "]";
-  const bool bounded = p.range.min > -1e9 || p.range.max < 1e9;
-  if (bounded && p.type != "bool" && p.type != "string") {
-    text += p.range.max >= 1e9 ? (p.range.min > 0.0 ? ", positive" : ", not negative")
-                               : ", " + ToText(p.range.min) + " to " + ToText(p.range.max);
-  }
+  if (p.type != "string" && !RangeText(p).empty()) text += ", " + RangeText(p);
   return text;
 }
 

@@ -60,6 +60,15 @@ std::string ToText(const ParameterValue& value) {
   return text.str();
 }
 
+std::string RangeText(const Parameter& p) {
+  if (p.type == "bool") return "";
+  if (p.type == "string") return Join(p.choices);
+  constexpr double kUnlimited = 1e9;
+  if (p.range.max < kUnlimited) return ToText(p.range.min) + " to " + ToText(p.range.max);
+  if (p.range.min <= -kUnlimited) return "";
+  return p.range.min > 0.0 ? "positive" : "not negative";
+}
+
 void ParameterSet::Add(const std::string& name, bool* target, const std::string& description) {
   parameters_.push_back({name,
                          "bool",
@@ -123,19 +132,37 @@ void ParameterSet::AddDegrees(const std::string& name, double* target_rad, Param
        [target_rad](const ParameterValue& v) { *target_rad = std::get<double>(v) * kDegree; }});
 }
 
-const Parameter& ParameterSet::Find(const std::string& name) const {
+void ParameterSet::AllowLive(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    bool found = false;
+    for (Parameter& p : parameters_) {
+      const bool in_group = name.back() == '/' && p.name.rfind(name, 0) == 0;
+      if (p.name != name && !in_group) continue;
+      p.live = true;
+      found = true;
+    }
+    if (!found) throw ParameterError(FullName(name) + ": there is nothing of this name");
+  }
+}
+
+bool ParameterSet::Has(const std::string& name) const {
+  return std::any_of(parameters_.begin(), parameters_.end(),
+                     [&](const Parameter& p) { return p.name == name; });
+}
+
+const Parameter& ParameterSet::Get(const std::string& name) const {
   const auto found = std::find_if(parameters_.begin(), parameters_.end(),
                                   [&](const Parameter& p) { return p.name == name; });
   if (found != parameters_.end()) return *found;
   std::vector<std::string> names;
   for (const Parameter& p : parameters_) names.push_back(p.name);
-  throw ParameterError(node_ + "/" + name + ": unknown parameter" +
+  throw ParameterError(FullName(name) + ": unknown parameter" +
                        (names.empty() ? "" : ", did you mean " + MostSimilar(name, names) + "?"));
 }
 
-void ParameterSet::Set(const std::string& name, const ParameterValue& value) {
-  const Parameter& p = Find(name);
-  const std::string full_name = node_ + "/" + name;
+ParameterValue ParameterSet::Checked(const std::string& name, const ParameterValue& value) const {
+  const Parameter& p = Get(name);
+  const std::string full_name = FullName(name);
   ParameterValue converted = value;
   if (p.type == "double" && std::holds_alternative<int>(value)) {
     converted = static_cast<double>(std::get<int>(value));
@@ -155,17 +182,21 @@ void ParameterSet::Set(const std::string& name, const ParameterValue& value) {
                                       std::get<std::string>(converted)) == p.choices.end()) {
     throw ParameterError(full_name + ": " + ToText(value) + " is not one of " + Join(p.choices));
   }
-  p.set(converted);
+  return converted;
 }
 
-void ParameterSet::Set(const std::map<std::string, ParameterValue>& values) {
+void ParameterSet::Set(const std::string& name, const ParameterValue& value) const {
+  Get(name).set(Checked(name, value));
+}
+
+void ParameterSet::Set(const std::map<std::string, ParameterValue>& values) const {
   for (const auto& [name, value] : values) Set(name, value);
 }
 
 ParameterSet ParameterSet::DifferentFrom(const ParameterSet& other) const {
   ParameterSet different(node_);
   for (const Parameter& p : parameters_) {
-    if (ToText(p.get()) != ToText(other.Find(p.name).get())) different.parameters_.push_back(p);
+    if (ToText(p.get()) != ToText(other.Get(p.name).get())) different.parameters_.push_back(p);
   }
   return different;
 }

@@ -46,23 +46,25 @@ void AddSensorPose(const std::string& prefix, SensorPose* o, ParameterSet* set) 
 }
 
 void AddMotionBounds(MotionBounds* o, ParameterSet* set) {
-  set->Add("window/distance_per_distance", &o->distance_per_distance, "m/m", kNotNegative,
+  // The search tries every motion in the window: no user shall open it beyond all bounds.
+  constexpr ParameterRange kGrowth{0.0, 10.0};
+  set->Add("window/distance_per_distance", &o->distance_per_distance, "m/m", kGrowth,
            "D grows with the way driven: wheel radius and slip");
-  set->Add("window/distance_per_angle", &o->distance_per_angle, "m/rad", kNotNegative,
+  set->Add("window/distance_per_angle", &o->distance_per_angle, "m/rad", kGrowth,
            "D grows with the angle turned: slip");
-  set->Add("window/distance_per_time", &o->distance_per_time, "m/s", kNotNegative,
+  set->Add("window/distance_per_time", &o->distance_per_time, "m/s", kGrowth,
            "D grows with the time between scans: wheels that spin or block, late stamps");
-  set->Add("window/min_distance", &o->min_distance, "m", kNotNegative, "floor of D");
-  set->Add("window/angle_per_angle", &o->angle_per_angle, "rad/rad", kNotNegative,
+  set->Add("window/min_distance", &o->min_distance, "m", {0.0, 1.0}, "floor of D");
+  set->Add("window/angle_per_angle", &o->angle_per_angle, "rad/rad", kGrowth,
            "Phi grows with the angle turned: wheel base and slip");
-  set->Add("window/angle_per_distance", &o->angle_per_distance, "rad/m", kNotNegative,
+  set->Add("window/angle_per_distance", &o->angle_per_distance, "rad/m", kGrowth,
            "Phi grows with the way driven: unequal wheels");
-  set->Add("window/angle_per_time", &o->angle_per_time, "rad/s", kNotNegative,
+  set->Add("window/angle_per_time", &o->angle_per_time, "rad/s", kGrowth,
            "Phi grows with the time between scans: wheels that spin or block, late stamps");
-  set->Add("window/min_angle", &o->min_angle, "rad", kNotNegative, "floor of Phi");
-  set->Add("window/lateral_per_distance", &o->lateral_per_distance, "-", kNotNegative,
+  set->Add("window/min_angle", &o->min_angle, "rad", {0.0, 3.15}, "floor of Phi");
+  set->Add("window/lateral_per_distance", &o->lateral_per_distance, "-", {0.0, 2.0},
            "sideways bound of the refinement as a fraction of D; 0 for a pure arc");
-  set->Add("window/max_time", &o->max_time, "s", kNotNegative,
+  set->Add("window/max_time", &o->max_time, "s", {0.0, 10.0},
            "longer gaps do not widen the window further");
 }
 
@@ -233,6 +235,10 @@ ParameterSet FusionParameters(ScanImageFusionOptions* o, ScanImageFusionNodeOpti
   set.Add("edge_bearing_stddev", &o->edge_bearing_stddev, "px", kPositive,
           "standard deviation of an edge's column");
   AddOdometryLimits(&o->odometry, &set);
+  set.AllowLive({"odom_max_wait", "min_range", "max_range", "field_of_view_deg",
+                 "min_beam_spacing_deg", "max_image_age", "camera_time_offset", "roi_below",
+                 "roi_above", "edge_threshold", "min_edge_length", "min_edge_rows",
+                 "column_tolerance", "edge_bearing_stddev"});
   return set;
 }
 
@@ -250,12 +256,13 @@ ParameterSet BoundedIcpParameters(BoundedIcpOptions* o, BoundedIcpNodeOptions* n
                  "motions are told from a scan at most so much turned");
   AddMotionBounds(&o->prediction.bounds, &set);
   set.Add("window/lateral_per_distance_without_encoders",
-          &o->prediction.lateral_per_distance_without_encoders, "-", kNotNegative,
+          &o->prediction.lateral_per_distance_without_encoders, "-", {0.0, 2.0},
           "sideways bound without encoders, as a fraction of D");
   AddMotionNoise(&o->prediction.noise, &set);
   AddLocalMapMatcher(&o->local_map_matcher, &set);
   AddFrameMatcher(&o->frame_matcher, &set);
   AddOdometryLimits(&o->prediction.odometry, &set);
+  set.AllowLive({"odom_max_wait", "window/", "noise/", "edge_map/", "refinement/"});
   return set;
 }
 
@@ -297,6 +304,11 @@ ParameterSet MapperParameters(MapperOptions* o, LoopCloserOptions* loop, MapperN
   set.Add("map_update_time_thresh", &o->map_update_time_thresh, "s", kNotNegative,
           "passed since the last scan that was drawn");
   AddLoopClosing(o, loop, &set);
+  set.AllowLive({"transform_publish_period", "tf_delay", "map_update_interval",
+                 "update_factor_occupied", "update_factor_free", "map_update_distance_thresh",
+                 "map_update_angle_thresh", "map_update_time_thresh", "loop/min_way",
+                 "loop/max_distance", "loop/min_agreement", "loop/min_overlap",
+                 "loop/max_rival_score"});
   return set;
 }
 

@@ -71,6 +71,11 @@ ScanImageFusion::ScanImageFusion(const ScanImageFusionOptions& options)
   options_.Validate();
 }
 
+void ScanImageFusion::SetOptions(const ScanImageFusionOptions& options) {
+  options.Validate();
+  options_ = options;
+}
+
 void ScanImageFusion::SetCamera(const CameraIntrinsics& intrinsics,
                                 const Eigen::Isometry3d& base_from_camera) {
   auto camera = std::make_unique<CameraModel>(intrinsics);

@@ -22,6 +22,12 @@ Eigen::Matrix3d WithNoise(const Eigen::Matrix3d& information, const Eigen::Matri
 
 LoopCloser::LoopCloser(const LoopCloserOptions& options) : options_(options) {}
 
+void LoopCloser::SetOptions(const LoopCloserOptions& options) {
+  const bool enabled = options_.enabled;
+  options_ = options;
+  options_.enabled = enabled;
+}
+
 bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
   if (!options_.enabled) return false;
   if (keyframe->id == 0) *this = LoopCloser(options_);  // the map has begun anew

@@ -28,6 +28,11 @@ LoopClosingThread::~LoopClosingThread() {
   thread_.join();
 }
 
+void LoopClosingThread::SetOptions(const LoopCloserOptions& options) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  new_options_ = options;
+}
+
 void LoopClosingThread::Add(std::shared_ptr<const Keyframe> keyframe) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -59,7 +64,9 @@ void LoopClosingThread::Run() {
     const std::shared_ptr<const Keyframe> keyframe = queue_.front();
     queue_.pop_front();
     const int map_number = map_number_;
+    const auto new_options = std::exchange(new_options_, std::nullopt);
     lock.unlock();
+    if (new_options) closer_.SetOptions(*new_options);
     std::optional<GraphState> found;
     if (closer_.Add(keyframe)) found = StateOf(closer_);
     lock.lock();

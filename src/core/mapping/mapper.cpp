@@ -80,6 +80,12 @@ Mapper::Mapper(const MapperOptions& options) : options_(options), grid_(options.
   options_.Validate();
 }
 
+void Mapper::SetOptions(const MapperOptions& options) {
+  options.Validate();
+  options_ = options;
+  grid_.SetOptions(options.grid);
+}
+
 void Mapper::BeginChain(const MatchedMotion& match) {
   if (start_stamp_ && match.start_stamp < last_.stamp) Reset();
   Pose2 map_from_base;
@@ -202,7 +208,7 @@ bool Mapper::Redraw(int max_scans) {
     DrawnScan& drawn = drawn_[--to_redraw_];
     const Pose2 map_from_base = MapFromBase(drawn.pose);
     const Pose2 moved = drawn.map_from_base.Inverse() * map_from_base;
-    if (moved.translation().norm() < kCells * options_.grid.resolution &&
+    if (moved.translation().norm() < kCells * grid_.resolution() &&
         std::abs(moved.theta) < kAngle) {
       continue;
     }

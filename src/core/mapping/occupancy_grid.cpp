@@ -38,6 +38,14 @@ OccupancyGrid::OccupancyGrid(const OccupancyGridOptions& options) : options_(opt
   options_.Validate();
 }
 
+void OccupancyGrid::SetOptions(const OccupancyGridOptions& options) {
+  options.Validate();
+  const double resolution = options_.resolution;
+  options_ = options;
+  options_.resolution = resolution;
+  changed_ = box_;
+}
+
 void OccupancyGrid::Add(const GridScan& scan, const Pose2& map_from_base) {
   Draw(scan, map_from_base, 1);
 }

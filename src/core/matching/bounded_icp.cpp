@@ -19,11 +19,24 @@ MatchStatus StatusOf(const MatchOutcome& outcome) {
 
 }  // namespace
 
+void BoundedIcpOptions::Validate() const {
+  prediction.Validate();
+  local_map_matcher.Validate();
+}
+
 BoundedIcp::BoundedIcp(const BoundedIcpOptions& options)
     : options_(options),
       predictor_(options.prediction),
       local_map_matcher_(options.local_map_matcher),
       frame_matcher_(options.frame_matcher) {}
+
+void BoundedIcp::SetOptions(const BoundedIcpOptions& options) {
+  options.Validate();
+  options_.prediction = options.prediction;
+  options_.local_map_matcher = options.local_map_matcher;
+  predictor_.SetOptions(options.prediction);
+  local_map_matcher_.SetOptions(options.local_map_matcher);
+}
 
 MatchedMotion BoundedIcp::Match(const FusedModel& model) {
   if (last_stamp_ && model.stamp <= *last_stamp_) {

@@ -48,10 +48,23 @@ bool MattersForSweep(const Velocity2& velocity, const std::vector<SurfacePoint>&
 
 }  // namespace
 
+void LocalMapMatcherOptions::Validate() const {
+  grid.Validate();
+  local_map.Validate();
+  edge_map.Validate();
+  refinement.Validate();
+}
+
 LocalMapMatcher::LocalMapMatcher(const LocalMapMatcherOptions& options)
     : options_(options), local_map_(options.local_map, options.noise), edge_map_(options.edge_map) {
-  options_.grid.Validate();
-  options_.refinement.Validate();
+  options_.Validate();
+}
+
+void LocalMapMatcher::SetOptions(const LocalMapMatcherOptions& options) {
+  const RangeNoise noise = options_.noise;
+  options_ = options;
+  options_.noise = noise;
+  edge_map_.SetOptions(options.edge_map);
 }
 
 void LocalMapMatcher::Start(const FusedModel& model, const Pose2& map_from_base) {

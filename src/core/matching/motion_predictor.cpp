@@ -61,15 +61,20 @@ void MotionNoise::Validate() const {
   require(min_angle, "min_angle");
 }
 
-MotionPredictor::MotionPredictor(const MotionPredictorOptions& options)
-    : options_(options), odometry_(options.odometry) {
-  options_.bounds.Validate();
-  options_.noise.Validate();
-  const double lateral = options_.lateral_per_distance_without_encoders;
+void MotionPredictorOptions::Validate() const {
+  odometry.Validate();
+  bounds.Validate();
+  noise.Validate();
+  const double lateral = lateral_per_distance_without_encoders;
   if (!(std::isfinite(lateral) && lateral >= 0.0)) {
     throw std::invalid_argument(
         "lateral_per_distance_without_encoders must be finite and not negative");
   }
+}
+
+MotionPredictor::MotionPredictor(const MotionPredictorOptions& options)
+    : options_(options), odometry_(options.odometry) {
+  options_.Validate();
 }
 
 MotionPrediction MotionPredictor::Predict(Stamp stamp) const {

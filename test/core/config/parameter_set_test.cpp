@@ -163,6 +163,48 @@ TEST_F(ParameterSetTest, WithoutParametersNothingIsSuggested) {
   EXPECT_EQ(ErrorOf("x", 1), "idle/x: unknown parameter");
 }
 
+TEST_F(ParameterSetTest, AValueIsCheckedWithoutBeingSet) {
+  EXPECT_EQ(set_.Checked("brush/width", 2), ParameterValue(2.0));
+  EXPECT_THROW(set_.Checked("brush/width", 2.5), ParameterError);
+  EXPECT_EQ(width_, 1.0);
+}
+
+TEST_F(ParameterSetTest, KnowsItsNames) {
+  EXPECT_TRUE(set_.Has("brush/width"));
+  EXPECT_FALSE(set_.Has("brush"));
+  EXPECT_EQ(set_.Get("coats").description, "a count");
+  EXPECT_THROW(set_.Get("coat"), ParameterError);
+}
+
+TEST_F(ParameterSetTest, NothingIsLiveUnlessItIsAllowed) {
+  const auto live = [this] {
+    std::vector<std::string> names;
+    for (const Parameter& p : set_.parameters()) {
+      if (p.live) names.push_back(p.name);
+    }
+    return names;
+  };
+  EXPECT_EQ(live(), std::vector<std::string>());
+  set_.AllowLive({"brush/", "coats"});
+  EXPECT_EQ(live(), (std::vector<std::string>{"coats", "brush/width", "brush/tilt_deg"}));
+  EXPECT_THROW(set_.AllowLive({"brush"}), ParameterError);
+  EXPECT_THROW(set_.AllowLive({"roller/"}), ParameterError);
+}
+
+TEST_F(ParameterSetTest, TellsRangesInWords) {
+  set_.Add("price", &width_, "-", {1e-9, 1e9}, "a number");
+  set_.Add("debts", &width_, "-", {0.0, 1e9}, "a number");
+  set_.Add("place", &width_, "m", {-1e9, 1e9}, "a number");
+  const auto range = [this](const std::string& name) { return RangeText(set_.Get(name)); };
+  EXPECT_EQ(range("dry"), "");
+  EXPECT_EQ(range("frame"), "");
+  EXPECT_EQ(range("colour"), "red, green");
+  EXPECT_EQ(range("brush/width"), "0.5 to 2.0");
+  EXPECT_EQ(range("price"), "positive");
+  EXPECT_EQ(range("debts"), "not negative");
+  EXPECT_EQ(range("place"), "");
+}
+
 TEST_F(ParameterSetTest, SetsSeveralByName) {
   set_.Set({{"coats", 5}, {"brush/width", 0.5}});
   EXPECT_EQ(coats_, 5);

@@ -91,6 +91,22 @@ TEST(SlamParameters, OfOneGroupStandTogether) {
   });
 }
 
+TEST(SlamParameters, ThatShapeWhatIsKeptAreNotLive) {
+  SlamOptions options;
+  std::set<std::string> live;
+  ForEachParameter(&options, [&](const ParameterSet& set, const Parameter& p) {
+    if (p.live) live.insert(set.node() + "/" + p.name);
+    if (p.type == "string") EXPECT_FALSE(p.live);
+  });
+  EXPECT_EQ(live.count("bounded_icp/refinement/gate"), 1U);
+  for (const char* name :
+       {"mapper/resolution", "mapper/map_max_range", "mapper/loop/enabled",
+        "mapper/keyframe_distance", "bounded_icp/local_map/spacing", "bounded_icp/local_map/reach",
+        "bounded_icp/laser/range_stddev", "bounded_icp/search/distance_step"}) {
+    EXPECT_EQ(live.count(name), 0U) << name;
+  }
+}
+
 /// Another value that the parameter may have.
 ParameterValue Other(const Parameter& p) {
   if (p.type == "bool") return !std::get<bool>(p.get());

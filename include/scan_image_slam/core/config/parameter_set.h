@@ -36,7 +36,11 @@ struct Parameter {
   std::string description;
   std::function<ParameterValue()> get;
   std::function<void(const ParameterValue&)> set;  ///< type and range are already checked
+  bool live = false;                               ///< may change while the node runs
 };
+
+/// What values a parameter may have, in words: "positive", "0.0 to 1.0", "one, two"; empty: any.
+std::string RangeText(const Parameter& parameter);
 
 /// The parameters of one node. Each points to a field of an options struct, whose initial value is
 /// the default: there is no other place for it.
@@ -60,10 +64,21 @@ class ParameterSet {
                  const std::vector<std::pair<std::string, Enum>>& choices,
                  const std::string& description);
 
-  /// Sets one parameter. Throws ParameterError if it is unknown, of another type or out of range.
-  void Set(const std::string& name, const ParameterValue& value);
+  /// Parameters that may change while the node runs: names, or groups, with a slash at their end.
+  void AllowLive(const std::vector<std::string>& names);
+
+  /// Whether there is a parameter of this name.
+  bool Has(const std::string& name) const;
+  /// Throws ParameterError if there is none.
+  const Parameter& Get(const std::string& name) const;
+
+  /// The value in the parameter's type. Throws ParameterError if the parameter is unknown, of
+  /// another type or out of range.
+  ParameterValue Checked(const std::string& name, const ParameterValue& value) const;
+  /// Sets the field that a parameter points to, to its checked value.
+  void Set(const std::string& name, const ParameterValue& value) const;
   /// Sets several, by name; stops at the first that is wrong.
-  void Set(const std::map<std::string, ParameterValue>& values);
+  void Set(const std::map<std::string, ParameterValue>& values) const;
 
   /// The parameters whose values, as text, are not those of the same parameters in `other`.
   ParameterSet DifferentFrom(const ParameterSet& other) const;
@@ -74,7 +89,7 @@ class ParameterSet {
   const std::vector<Parameter>& parameters() const { return parameters_; }
 
  private:
-  const Parameter& Find(const std::string& name) const;
+  std::string FullName(const std::string& name) const { return node_ + "/" + name; }
 
   std::string node_;
   std::vector<Parameter> parameters_;

@@ -57,6 +57,9 @@ class ScanImageFusion {
   const OdometryBuffer& odometry() const { return odometry_; }
 
   const ScanImageFusionOptions& options() const { return options_; }
+  /// From the next scan on; the limits of the odometry stay. Throws std::invalid_argument, and
+  /// changes nothing, if a value is out of range.
+  void SetOptions(const ScanImageFusionOptions& options);
 
   void SetLaser(const LaserMount& mount) { laser_ = mount; }
   const LaserMount& laser() const { return laser_; }

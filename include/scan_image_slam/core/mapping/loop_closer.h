@@ -40,6 +40,9 @@ class LoopCloser {
  public:
   explicit LoopCloser(const LoopCloserOptions& options);
 
+  /// From the next keyframe on. `enabled` stays: what was not kept can't be compared later.
+  void SetOptions(const LoopCloserOptions& options);
+
   /// Adds the next keyframe; number 0 starts a new map. Returns true if keyframes have moved.
   bool Add(std::shared_ptr<const Keyframe> keyframe);
 

@@ -27,6 +27,9 @@ class LoopClosingThread {
   LoopClosingThread(const LoopClosingThread&) = delete;
   LoopClosingThread& operator=(const LoopClosingThread&) = delete;
 
+  /// See LoopCloser::SetOptions.
+  void SetOptions(const LoopCloserOptions& options);
+
   /// Queues a keyframe. Number 0 starts a new map: what is queued or found is dropped.
   void Add(std::shared_ptr<const Keyframe> keyframe);
 
@@ -44,6 +47,7 @@ class LoopClosingThread {
   std::condition_variable changed_;
   std::deque<std::shared_ptr<const Keyframe>> queue_;
   std::optional<GraphState> found_;
+  std::optional<LoopCloserOptions> new_options_;
   int map_number_ = 0;
   bool stop_ = false;
   std::thread thread_;

@@ -39,6 +39,10 @@ class Mapper {
  public:
   explicit Mapper(const MapperOptions& options);
 
+  /// From the next match on; the map stays, with its resolution, until Reset. Throws
+  /// std::invalid_argument, and changes nothing, if a value is out of range.
+  void SetOptions(const MapperOptions& options);
+
   /// The pose after a match. The first pose is that of the encoders, so that the map's frame begins
   /// as theirs. A chain of matches that begins anew goes on from the last known pose, carried on by
   /// the encoders; if it begins before the last match, time has gone back and the map with it.

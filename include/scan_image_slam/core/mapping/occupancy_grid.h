@@ -53,6 +53,10 @@ class OccupancyGrid {
  public:
   explicit OccupancyGrid(const OccupancyGridOptions& options);
 
+  /// Counts stay, and with them the size of the cells; what they mean follows the new options.
+  /// Throws std::invalid_argument, and changes nothing, if a value is out of range.
+  void SetOptions(const OccupancyGridOptions& options);
+
   /// Draws a scan taken at `map_from_base`. A cell that holds a hit of the scan is not crossed by
   /// it.
   void Add(const GridScan& scan, const Pose2& map_from_base);

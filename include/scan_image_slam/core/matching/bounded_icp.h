@@ -23,6 +23,8 @@ struct BoundedIcpOptions {
   FrameMatcherOptions frame_matcher;         ///< used with Reference::kPreviousFrame
   double reference_distance = 0.5;  ///< motions are told from a scan at most so far back [m]
   double reference_angle = 0.5;     ///< [rad]
+  /// Throws std::invalid_argument, naming the field, if a value is out of range.
+  void Validate() const;
 };
 
 /// The second stage of the system: the motion of the base between scans, within the bounds that the
@@ -39,6 +41,12 @@ class BoundedIcp {
 
   /// Matches the next model. Throws std::invalid_argument if its stamp is not later than the last.
   MatchedMotion Match(const FusedModel& model);
+
+  /// From the next model on: bounds and noise of the motion, search, edges, refinement. What was
+  /// seen stays, and with it the reference, the laser's noise, the surface elements and the limits
+  /// of the odometry, until Reset. Throws std::invalid_argument, and changes nothing, if a value is
+  /// out of range.
+  void SetOptions(const BoundedIcpOptions& options);
 
   /// Forgets everything: time went back, or the user asked for it.
   void Reset() { *this = BoundedIcp(options_); }

@@ -52,6 +52,8 @@ class EdgeMap {
 
   const std::vector<EdgeLandmark>& landmarks() const { return landmarks_; }
   const EdgeMapOptions& options() const { return options_; }
+  /// For the edges to come; landmarks stay.
+  void SetOptions(const EdgeMapOptions& options) { options_ = options; }
 
  private:
   /// The landmark of a sign nearest to a place, at most `reach` away; -1 if there is none.

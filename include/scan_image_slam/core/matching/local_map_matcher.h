@@ -29,12 +29,17 @@ struct LocalMapMatcherOptions {
   double forget_distance =
       20.0;  ///< what was not seen on the last stretch of this length drops [m]
   double min_matched_fraction = 0.2;  ///< of the points of a scan, to enter it into the map [-]
+  /// Throws std::invalid_argument, naming the field, if a value is out of range.
+  void Validate() const;
 };
 
 /// Matches scans with everything seen so far: exhaustive search in the window, then refinement.
 class LocalMapMatcher {
  public:
   explicit LocalMapMatcher(const LocalMapMatcherOptions& options);
+
+  /// From the next scan on; what is in the map stays, and `local_map` and `noise` with it.
+  void SetOptions(const LocalMapMatcherOptions& options);
 
   /// The first scan, which starts the map.
   void Start(const FusedModel& model, const Pose2& map_from_base);

@@ -31,6 +31,8 @@ struct MotionPredictorOptions {
   MotionNoise noise;
   /// Sideways bound without encoders, as a fraction of D: the laser may be carried by hand [-].
   double lateral_per_distance_without_encoders = 1.0;
+  /// Throws std::invalid_argument, naming the field, if a value is out of range.
+  void Validate() const;
 };
 
 /// Where the base should be by now, and how wrong that can be.
@@ -47,6 +49,9 @@ struct MotionPrediction {
 class MotionPredictor {
  public:
   explicit MotionPredictor(const MotionPredictorOptions& options);
+
+  /// From the next prediction on; the limits of the odometry stay.
+  void SetOptions(const MotionPredictorOptions& options) { options_ = options; }
 
   OdometryBuffer& odometry() { return odometry_; }
   const OdometryBuffer& odometry() const { return odometry_; }

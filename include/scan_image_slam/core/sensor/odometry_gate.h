@@ -18,6 +18,8 @@ class OdometryGate {
   OdometryGate(double max_wait, std::size_t max_items)
       : max_wait_(max_wait), max_items_(max_items) {}
 
+  void set_max_wait(double max_wait) { max_wait_ = max_wait; }
+
   /// `now` is any clock that goes on while messages arrive, e.g. the time of arrival [ns].
   void Push(Item item, Stamp stamp, Stamp now) {
     waiting_.push_back({std::move(item), stamp, now});
