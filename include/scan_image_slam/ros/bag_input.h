@@ -34,6 +34,12 @@ struct BagTopics {
   bool use_images = true;
 };
 
+/// Opens a bag for reading. Throws BagError.
+void OpenBag(const std::string& path, rosbag::Bag* bag);
+
+/// Topics that hold transforms.
+const std::vector<std::string>& TransformTopics();
+
 /// Plays the sensors of a bag into a pipeline, in the order in which they were recorded.
 class BagInput {
  public:
@@ -79,7 +85,7 @@ class BagInput {
   std::string odom_topic_;
   bool odometry_from_tf_ = false;
   std::string base_frame_;
-  std::unique_ptr<tf2::BufferCore> mounts_;  ///< first transform between each two frames
+  std::unique_ptr<tf2::BufferCore> mounts_;  ///< the usual transform between each two frames
   std::optional<Eigen::Isometry3d> base_from_camera_;
   bool camera_set_ = false;
   std::map<std::string, int> refused_;
