@@ -32,10 +32,6 @@ std::string Join(const std::vector<std::string>& words) {
   return joined.empty() ? "none" : joined;
 }
 
-std::string WithSlash(const std::string& topic) {
-  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
-}
-
 }  // namespace
 
 void OpenBag(const std::string& path, rosbag::Bag* bag) {
@@ -54,6 +50,16 @@ void OpenBag(const std::string& path, rosbag::Bag* bag) {
   }
 }
 
+std::string WithSlash(const std::string& topic) {
+  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
+}
+
+rosbag::TopicQuery WithOrWithoutSlash(const std::vector<std::string>& topics) {
+  std::vector<std::string> names = topics;
+  for (const std::string& topic : topics) names.push_back(topic.substr(1));
+  return rosbag::TopicQuery(names);
+}
+
 const std::vector<std::string>& TransformTopics() {
   static const std::vector<std::string> kTopics = {"/tf", "/tf_static"};
   return kTopics;
@@ -68,7 +74,7 @@ BagInput::BagInput(const std::string& path, const BagTopics& topics, const SlamO
     rosbag::View all(bag_);
     for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
       // Older recordings hold transforms under the type of the first tf, with the same content.
-      type_of_[connection->topic] =
+      type_of_[WithSlash(connection->topic)] =
           connection->datatype == "tf/tfMessage" ? "tf2_msgs/TFMessage" : connection->datatype;
     }
     if (all.size() == 0) throw BagError(path + ": the bag holds no messages");
@@ -145,7 +151,7 @@ void BagInput::ChooseTopics(const BagTopics& topics) {
 
 void BagInput::ReadTransforms() {
   RecordedTransforms transforms;
-  rosbag::View view(bag_, rosbag::TopicQuery(TransformTopics()));
+  rosbag::View view(bag_, WithOrWithoutSlash(TransformTopics()));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = instance.instantiate<tf2_msgs::TFMessage>();
     if (message != nullptr) transforms.Add(*message, instance.getTime());
@@ -154,7 +160,7 @@ void BagInput::ReadTransforms() {
 }
 
 std::string BagInput::FirstFrame(const std::string& topic) const {
-  rosbag::View view(bag_, rosbag::TopicQuery(topic));
+  rosbag::View view(bag_, WithOrWithoutSlash({topic}));
   for (const rosbag::MessageInstance& instance : view) {
     if (const auto scan = instance.instantiate<sensor_msgs::LaserScan>()) {
       return StripSlash(scan->header.frame_id);
@@ -233,11 +239,11 @@ void BagInput::Play(SlamPipeline* pipeline, const SlamPipeline::RunStage& run,
   if (odometry_from_tf_) topics.push_back("/tf");
   if (!image_topic_.empty()) topics.insert(topics.end(), {image_topic_, camera_info_topic_});
   try {
-    rosbag::View view(bag_, rosbag::TopicQuery(topics));
+    rosbag::View view(bag_, WithOrWithoutSlash(topics));
     const double total = std::max<double>(1.0, view.size());
     double done = 0.0;
     for (const rosbag::MessageInstance& message : view) {
-      const std::string& topic = message.getTopic();
+      const std::string topic = WithSlash(message.getTopic());
       try {
         if (topic == scan_topic_) {
           PlayScan(message, pipeline);

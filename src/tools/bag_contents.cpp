@@ -29,12 +29,12 @@ class ContentsReader {
 
   void Expect(const std::vector<const rosbag::ConnectionInfo*>& connections) {
     for (const rosbag::ConnectionInfo* connection : connections) {
-      contents_.topics[connection->topic].type = connection->datatype;
+      contents_.topics[WithSlash(connection->topic)].type = connection->datatype;
     }
   }
 
   void Read(const rosbag::MessageInstance& message, std::size_t messages_of_topic) {
-    RecordedTopic* topic = &contents_.topics[message.getTopic()];
+    RecordedTopic* topic = &contents_.topics[WithSlash(message.getTopic())];
     const std::size_t index = topic->messages++;
     decode_ = index % std::max<std::size_t>(1, messages_of_topic / kImagesToDecode) == 0;
     const std::string& type = topic->type;
@@ -120,7 +120,8 @@ class ContentsReader {
 
   void ReadTransforms(const rosbag::MessageInstance& instance) {
     const std::vector<std::string>& names = TransformTopics();
-    if (std::find(names.begin(), names.end(), instance.getTopic()) == names.end()) return;
+    if (std::find(names.begin(), names.end(), WithSlash(instance.getTopic())) == names.end())
+      return;
     const auto message = instance.instantiate<tf2_msgs::TFMessage>();
     if (message != nullptr) contents_.transforms.Add(*message, instance.getTime());
   }
@@ -154,11 +155,11 @@ BagContents ReadBagContents(const std::string& path, const std::function<void(do
     reader.Expect(view.getConnections());
     std::map<std::string, std::size_t> messages;
     for (const auto& [name, topic] : contents.topics) {
-      messages[name] = rosbag::View(bag, rosbag::TopicQuery(name)).size();
+      messages[name] = rosbag::View(bag, WithOrWithoutSlash({name})).size();
     }
     double done = 0.0;
     for (const rosbag::MessageInstance& message : view) {
-      reader.Read(message, messages[message.getTopic()]);
+      reader.Read(message, messages[WithSlash(message.getTopic())]);
       progress(++done / view.size());
     }
   } catch (const rosbag::BagException& error) {

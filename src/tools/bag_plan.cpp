@@ -47,9 +47,8 @@ class Planner {
   std::string Choose(const std::string& wanted, const std::string& usual,
                      const std::vector<std::string>& names, const Usable& usable) const {
     if (!wanted.empty()) {
-      for (const std::string& name : {wanted, "/" + wanted}) {
-        if (std::find(names.begin(), names.end(), name) != names.end()) return name;
-      }
+      const std::string name = WithSlash(wanted);
+      if (std::find(names.begin(), names.end(), name) != names.end()) return name;
       throw BagError(contents_.path + ": there is no topic " + wanted + " of the type expected");
     }
     std::string best;
@@ -203,7 +202,7 @@ class Planner {
     };
     std::string usual = "/image_raw";
     if (std::find(names.begin(), names.end(), usual) == names.end()) usual += kCompressedEnding;
-    std::string wanted = wanted_.image;
+    std::string wanted = WithSlash(wanted_.image);
     if (!wanted.empty() && contents_.topics.count(wanted) == 0) wanted += kCompressedEnding;
     plan_.image = Choose(wanted, usual, names, readable);
     std::optional<Finding> problem =

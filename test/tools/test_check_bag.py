@@ -92,6 +92,14 @@ class CheckBag(ToolTest):
                                   "camera_info_topic": "/r/camera_info"})
         self.assertGreater(self.used()[0], 80)
 
+    def test_topics_that_were_recorded_without_their_slash(self):
+        bag = copy_bag(self.bag, self.path("bare.bag"), rename=lambda topic: topic[1:])
+        _, launch = self.check(bag)
+        self.assertEqual(self.offline, "slam_offline --bag %s --out results" % bag)
+        self.assertEqual(launch, {"bag": bag})
+        self.assertGreater(self.used()[0], 80)
+        self.assertTrue(self.used()[2])
+
     def test_raw_images(self):
         bag = simulate(self.path("raw.bag"), "--image-format", "mono8", duration=1)
         _, launch = self.check(bag, "mono8")

@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 #include <rosbag/bag.h>
+#include <rosbag/query.h>
 
 namespace tf2 {
 class BufferCore;
@@ -39,6 +40,11 @@ void OpenBag(const std::string& path, rosbag::Bag* bag);
 
 /// Topics that hold transforms.
 const std::vector<std::string>& TransformTopics();
+
+/// Name of a topic with its leading slash, which some recorders leave out.
+std::string WithSlash(const std::string& topic);
+/// The messages of these topics, given with their slash, whether recorded with or without it.
+rosbag::TopicQuery WithOrWithoutSlash(const std::vector<std::string>& topics);
 
 /// Plays the sensors of a bag into a pipeline, in the order in which they were recorded.
 class BagInput {
