@@ -47,7 +47,7 @@ class Planner {
   std::string Choose(const std::string& wanted, const std::string& usual,
                      const std::vector<std::string>& names, const Usable& usable) const {
     if (!wanted.empty()) {
-      const std::string name = WithSlash(wanted);
+      std::string name = WithSlash(wanted);
       if (std::find(names.begin(), names.end(), name) != names.end()) return name;
       throw BagError(contents_.path + ": there is no topic " + wanted + " of the type expected");
     }

@@ -38,7 +38,7 @@ void Check(const Arguments& arguments) {
                              (findings.empty() ? "  nothing\n" : findings);
   if (!plan.usable()) throw BagError(arguments.bag + " can't be mapped with:\n" + report);
   // What is told to work is tried.
-  BagInput(arguments.bag, PlannedTopics(plan), PlannedOptions(plan));
+  const BagInput tried(arguments.bag, PlannedTopics(plan), PlannedOptions(plan));
   std::cout << report << "to map with it:\n";
   for (const std::string& line : CommandLines(contents, plan, arguments.slam_offline)) {
     std::cout << "  " << line << "\n";
