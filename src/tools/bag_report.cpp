@@ -2,6 +2,7 @@
 
 #include "scan_image_slam/core/recording/number_text.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
+#include "scan_image_slam/ros/sensor_frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,6 +151,13 @@ Findings CheckFrames(const BagContents& contents, const BagPlan& plan) {
         {Severity::kNote,
          "the bag holds " + link->parent + " -> " + link->child + " of another program",
          "nothing: it is not used, and bag.launch keeps it out"});
+  }
+  if (!plan.odom.empty() &&
+      !LookUpSensor(*contents.mounts, plan.odom_frame, plan.base_frame).found) {
+    findings.push_back({Severity::kNote,
+                        "there is no transform " + plan.odom_frame + " -> " + plan.base_frame +
+                            ": mapping does without, but rviz can't show the robot in the map",
+                        "record /tf"});
   }
   if (plan.base_from_camera && std::abs(OpticalAxis(*plan.base_from_camera).z()) > 0.87) {
     findings.push_back({Severity::kWarning, "the camera looks straight up or down by its transform",

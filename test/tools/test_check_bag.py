@@ -158,7 +158,8 @@ class CheckBag(ToolTest):
 
     def test_no_transforms_at_all(self):
         bag = self.changed(lambda topic, _: topic not in ("/tf", "/tf_static"))
-        report, launch = self.check(bag, "warning: laser: no transform base_link -> laser")
+        report, launch = self.check(bag, "warning: laser: no transform base_link -> laser",
+                                    "note: there is no transform odom -> base_link")
         self.assertIn("robot.yaml", report)
         self.assertIn("--config robot.yaml", self.offline)
         self.assertEqual(launch["config"], "$PWD/robot.yaml")

@@ -89,6 +89,9 @@ TEST(CheckCalibration, WhatNoLensHas) {
   camera = GoodCamera();
   camera.k(1, 1) = 200.0;
   EXPECT_TRUE(Tells(Check(camera), "square"));
+  camera = GoodCamera();
+  camera.k(0, 0) = 200.0;
+  EXPECT_TRUE(Tells(Check(camera), "square"));
 }
 
 TEST(CheckCalibration, NoDistortionIsANote) {
