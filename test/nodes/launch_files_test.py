@@ -238,6 +238,7 @@ class LaunchFilesTest(unittest.TestCase):
             self.assertIn(part, pieces)
         self.assertNotIn('compressed', pieces)
         self.assertNotIn('--lz4', words(compression='none'))
+        self.assertIn('--duration 600 ', words(split='600'))
         blind = words(use_camera='false', scan_topic='front/scan', odom_topic='wheels')
         self.assertEqual(blind.split()[-4:], ['front/scan', 'wheels', '/tf', '/tf_static'])
 
