@@ -167,6 +167,23 @@ Findings CheckFrames(const BagContents& contents, const BagPlan& plan) {
   return findings;
 }
 
+bool IsImage(const RecordedTopic& topic) {
+  return topic.type == "sensor_msgs/Image" || topic.type == "sensor_msgs/CompressedImage";
+}
+
+/// Of each kind of sensor the topic that is used, or all, as one wants to know why none is.
+std::vector<std::string> TopicsToCheck(const BagContents& contents, const BagPlan& plan) {
+  std::vector<std::string> names;
+  for (const auto& [name, topic] : contents.topics) {
+    const std::string* used = topic.type == "sensor_msgs/LaserScan" ? &plan.scan
+                              : topic.type == "nav_msgs/Odometry"   ? &plan.odom
+                              : IsImage(topic)                      ? &plan.image
+                                                                    : nullptr;
+    if (used != nullptr && (used->empty() || *used == name)) names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::string DescribeContents(const BagContents& contents, const BagPlan& plan) {
@@ -209,18 +226,18 @@ std::string DescribeContents(const BagContents& contents, const BagPlan& plan) {
 
 Findings CheckContents(const BagContents& contents, const BagPlan& plan) {
   Findings findings = plan.findings;
-  if (plan.usable()) {
-    const RecordedTopic& scans = contents.topics.at(plan.scan);
-    Append(CheckRecordingClock(plan.scan, scans.stamps), &findings);
-    Append(CheckScans(plan.scan, scans.scans, scans.stamps.Period()), &findings);
-    for (const std::string& name : {plan.scan, plan.odom, plan.image}) {
-      if (name.empty()) continue;
-      const RecordedTopic& topic = contents.topics.at(name);
-      Append(CheckTopic(name, topic), &findings);
-      if (name != plan.scan) {
-        Append(CompareStamps(plan.scan, scans.stamps, name, topic.stamps), &findings);
-      }
+  const StampRecord* scans = plan.usable() ? &contents.topics.at(plan.scan).stamps : nullptr;
+  for (const std::string& name : TopicsToCheck(contents, plan)) {
+    const RecordedTopic& topic = contents.topics.at(name);
+    Append(CheckTopic(name, topic), &findings);
+    if (scans != nullptr && name != plan.scan) {
+      Append(CompareStamps(plan.scan, *scans, name, topic.stamps), &findings);
     }
+    if (IsImage(topic)) Append(CheckImages(name, topic.images), &findings);
+  }
+  if (plan.usable()) {
+    Append(CheckRecordingClock(plan.scan, *scans), &findings);
+    Append(CheckScans(plan.scan, contents.topics.at(plan.scan).scans, scans->Period()), &findings);
     Append(CheckFrames(contents, plan), &findings);
   }
   if (!plan.odom.empty()) {
@@ -228,10 +245,8 @@ Findings CheckContents(const BagContents& contents, const BagPlan& plan) {
     Append(CheckOdometry(plan.odom, topic.odometry, topic.stamps.first()), &findings);
   }
   if (!plan.image.empty()) {
-    const RecordedTopic& images = contents.topics.at(plan.image);
-    Append(CheckImages(plan.image, images.images), &findings);
     Append(CheckCalibration(plan.camera_info, contents.topics.at(plan.camera_info).calibration,
-                            images.images),
+                            contents.topics.at(plan.image).images),
            &findings);
   }
   std::stable_sort(findings.begin(), findings.end(),

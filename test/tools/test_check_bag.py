@@ -144,6 +144,13 @@ class CheckBag(ToolTest):
 
         self.expect_no_camera(self.changed(change), "1280x960 px", "640x480 px")
 
+    def test_images_that_cannot_be_read(self):
+        def change(topic, message):
+            if topic == "/image_raw/compressed":
+                message.data = b"no picture"
+
+        self.expect_no_camera(self.changed(change), "error: /image_raw/compressed: of the images")
+
     def test_images_from_another_clock(self):
         def change(topic, message):
             if topic == "/image_raw/compressed":
@@ -189,7 +196,8 @@ class CheckBag(ToolTest):
             if topic == "/odom":
                 message.header.stamp = rospy.Time(0)
 
-        _, launch = self.check(self.changed(change), "taken from the transform odom -> base_link")
+        _, launch = self.check(self.changed(change), "taken from the transform odom -> base_link",
+                               "error: /odom: 100 % of the messages have a stamp of zero")
         self.assertIn("--set scan_image_fusion/odom_source=tf", self.offline)
         self.assertEqual(launch["odom_source"], "tf")
         self.assertTrue(self.used()[2])
@@ -287,6 +295,13 @@ class CheckBag(ToolTest):
     def test_what_cannot_be_mapped_with(self):
         self.expect(run("check_bag", self.changed(lambda topic, _: topic != "/scan")), 2,
                     "there are no scans")
+
+        def without_stamps(topic, message):
+            if topic == "/scan":
+                message.header.stamp = rospy.Time(0)
+
+        self.expect(run("check_bag", self.changed(without_stamps)), 2, "none of the scans can be",
+                    "/scan: 100 % of the messages have a stamp of zero")
 
         def tilt(topic, message):
             if topic == "/tf_static":
