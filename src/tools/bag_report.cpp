@@ -33,6 +33,9 @@ std::string Paragraph(const std::string& head, const std::string& text) {
 std::string TopicText(const std::string& name, const RecordedTopic& topic) {
   std::string text = name + ": " + CountText(topic.messages, "message");
   if (topic.stamps.Rate() > 0.0) text += ", " + NumberText(topic.stamps.Rate(), 1) + " Hz";
+  if (topic.stamps.MeanRate() < 0.8 * topic.stamps.Rate()) {
+    text += " mostly, " + NumberText(topic.stamps.MeanRate(), 1) + " Hz on average";
+  }
   if (topic.stamps.usable() > 0) {
     const double delay = topic.stamps.Delay();
     text += ", recorded " + DurationText(std::abs(delay)) + (delay < 0.0 ? " before" : " after") +
@@ -121,6 +124,11 @@ Findings CheckTopic(const std::string& name, const RecordedTopic& topic) {
   return findings;
 }
 
+/// Of any quaternion, as this is only told.
+double Yaw(const geometry_msgs::Quaternion& q) {
+  return std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
+}
+
 Finding Disagreement(const RecordedTransforms::Link& link) {
   std::string text = "transform " + link.parent + " -> " + link.child + " takes " +
                      std::to_string(link.values.size()) + " values:";
@@ -128,8 +136,8 @@ Finding Disagreement(const RecordedTransforms::Link& link) {
     const auto& t = transform.translation;
     text += (&transform == &link.values.front().transform ? " " : "; ") +
             ("x " + NumberText(t.x, 3) + ", y " + NumberText(t.y, 3) + ", z " + NumberText(t.z, 3) +
-             " m, yaw " + NumberText(ToPose2(ToIsometry(transform)).theta * kDegrees, 1) +
-             " deg (" + CountText(times, "time") + ")");
+             " m, yaw " + NumberText(Yaw(transform.rotation) * kDegrees, 1) + " deg (" +
+             CountText(times, "time") + ")");
   }
   return {Severity::kWarning, text + "; the most frequent one is used",
           "let only one program publish it, with the right value"};

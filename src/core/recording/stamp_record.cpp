@@ -48,6 +48,10 @@ double StampRecord::Period() const {
   return Median(std::move(periods));
 }
 
+double StampRecord::MeanRate() const {
+  return Duration() > 0.0 ? static_cast<double>(usable_.size() - 1) / Duration() : 0.0;
+}
+
 std::vector<StampRecord::Gap> StampRecord::Gaps() const {
   const double shortest = std::max(kGapPeriods * Period(), kMinGap);
   std::vector<Gap> gaps;

@@ -37,12 +37,14 @@ TEST(StampRecord, RateIsThatOfMostMessages) {
   EXPECT_NEAR(record.Period(), 0.1, 1e-9);
   EXPECT_NEAR(record.Rate(), 10.0, 1e-6);
   EXPECT_NEAR(record.Duration(), 5.9, 1e-9);
+  EXPECT_NEAR(record.MeanRate(), 10.0 / 5.9, 1e-6);
   EXPECT_EQ(record.messages(), 11u);
 }
 
 TEST(StampRecord, OneMessageHasNoRate) {
   EXPECT_EQ(Record({1.0}).Rate(), 0.0);
   EXPECT_EQ(StampRecord().Rate(), 0.0);
+  EXPECT_EQ(Record({1.0}).MeanRate(), 0.0);
   EXPECT_EQ(StampRecord().Delay(), 0.0);
   EXPECT_TRUE(CheckStamps("/scan", Record({1.0})).empty());
 }

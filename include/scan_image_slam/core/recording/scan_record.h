@@ -14,6 +14,7 @@ class ScanRecord {
   void Add(const LaserScan& scan);
 
   std::size_t scans() const { return scans_; }
+  // All below need at least one scan.
   /// The first scan that has the usual number of beams; its ranges are those of any scan.
   const LaserScan& usual() const { return shapes_.at(UsualBeams()).first; }
   std::size_t UsualBeams() const;

@@ -26,6 +26,7 @@ class StampRecord {
   double Duration() const { return Seconds(last() - first()); }  ///< [s]
   double Period() const;                                         ///< median; 0 if unknown [s]
   double Rate() const { return Period() > 0.0 ? 1.0 / Period() : 0.0; }  ///< [Hz]
+  double MeanRate() const;  ///< over the whole time; lower than the rate if there are gaps [Hz]
 
   /// Time without messages: several periods, and long enough to matter.
   struct Gap {
