@@ -1,12 +1,12 @@
 #include "scan_image_slam/ros/bag_input.h"
 
 #include "scan_image_slam/ros/image_conversion.h"
+#include "scan_image_slam/ros/recorded_transforms.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 #include "scan_image_slam/ros/sensor_frames.h"
 
 #include <algorithm>
 #include <fstream>
-#include <set>
 
 #include <nav_msgs/Odometry.h>
 #include <rosbag/view.h>
@@ -25,7 +25,6 @@ constexpr char kImageType[] = "sensor_msgs/Image";
 constexpr char kCompressedType[] = "sensor_msgs/CompressedImage";
 constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
 constexpr char kOdometryType[] = "nav_msgs/Odometry";
-const std::vector<std::string> kTransformTopics = {"/tf", "/tf_static"};
 
 std::string Join(const std::vector<std::string>& words) {
   std::string joined;
@@ -33,11 +32,9 @@ std::string Join(const std::vector<std::string>& words) {
   return joined.empty() ? "none" : joined;
 }
 
-std::string WithSlash(const std::string& topic) {
-  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
-}
+}  // namespace
 
-void Open(const std::string& path, rosbag::Bag* bag) {
+void OpenBag(const std::string& path, rosbag::Bag* bag) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) throw BagError(path + ": can't be opened for reading");
   const auto size = static_cast<long long>(file.tellg());
@@ -53,18 +50,31 @@ void Open(const std::string& path, rosbag::Bag* bag) {
   }
 }
 
-}  // namespace
+std::string WithSlash(const std::string& topic) {
+  return topic.empty() || topic.front() == '/' ? topic : "/" + topic;
+}
+
+rosbag::TopicQuery WithOrWithoutSlash(const std::vector<std::string>& topics) {
+  std::vector<std::string> names = topics;
+  for (const std::string& topic : topics) names.push_back(topic.substr(1));
+  return rosbag::TopicQuery(names);
+}
+
+const std::vector<std::string>& TransformTopics() {
+  static const std::vector<std::string> kTopics = {"/tf", "/tf_static"};
+  return kTopics;
+}
 
 BagInput::~BagInput() = default;
 
 BagInput::BagInput(const std::string& path, const BagTopics& topics, const SlamOptions& options)
-    : path_(path), options_(options), mounts_(std::make_unique<tf2::BufferCore>()) {
-  Open(path, &bag_);
+    : path_(path), options_(options) {
+  OpenBag(path, &bag_);
   try {
     rosbag::View all(bag_);
     for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
       // Older recordings hold transforms under the type of the first tf, with the same content.
-      type_of_[connection->topic] =
+      type_of_[WithSlash(connection->topic)] =
           connection->datatype == "tf/tfMessage" ? "tf2_msgs/TFMessage" : connection->datatype;
     }
     if (all.size() == 0) throw BagError(path + ": the bag holds no messages");
@@ -139,25 +149,18 @@ void BagInput::ChooseTopics(const BagTopics& topics) {
   notes_.push_back("images: " + (image_topic_.empty() ? "none" : image_topic_));
 }
 
-/// Sensors do not move on the robot: the first transform between each two frames is kept.
 void BagInput::ReadTransforms() {
-  std::set<std::pair<std::string, std::string>> known;
-  rosbag::View view(bag_, rosbag::TopicQuery(kTransformTopics));
+  RecordedTransforms transforms;
+  rosbag::View view(bag_, WithOrWithoutSlash(TransformTopics()));
   for (const rosbag::MessageInstance& instance : view) {
     const auto message = instance.instantiate<tf2_msgs::TFMessage>();
-    if (message == nullptr) continue;
-    for (geometry_msgs::TransformStamped transform : message->transforms) {
-      transform.header.frame_id = StripSlash(transform.header.frame_id);
-      transform.child_frame_id = StripSlash(transform.child_frame_id);
-      if (known.emplace(transform.header.frame_id, transform.child_frame_id).second) {
-        mounts_->setTransform(transform, "bag", true);
-      }
-    }
+    if (message != nullptr) transforms.Add(*message, instance.getTime());
   }
+  mounts_ = transforms.MakeBuffer();
 }
 
 std::string BagInput::FirstFrame(const std::string& topic) const {
-  rosbag::View view(bag_, rosbag::TopicQuery(topic));
+  rosbag::View view(bag_, WithOrWithoutSlash({topic}));
   for (const rosbag::MessageInstance& instance : view) {
     if (const auto scan = instance.instantiate<sensor_msgs::LaserScan>()) {
       return StripSlash(scan->header.frame_id);
@@ -236,11 +239,11 @@ void BagInput::Play(SlamPipeline* pipeline, const SlamPipeline::RunStage& run,
   if (odometry_from_tf_) topics.push_back("/tf");
   if (!image_topic_.empty()) topics.insert(topics.end(), {image_topic_, camera_info_topic_});
   try {
-    rosbag::View view(bag_, rosbag::TopicQuery(topics));
+    rosbag::View view(bag_, WithOrWithoutSlash(topics));
     const double total = std::max<double>(1.0, view.size());
     double done = 0.0;
     for (const rosbag::MessageInstance& message : view) {
-      const std::string& topic = message.getTopic();
+      const std::string topic = WithSlash(message.getTopic());
       try {
         if (topic == scan_topic_) {
           PlayScan(message, pipeline);

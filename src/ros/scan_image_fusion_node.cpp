@@ -56,10 +56,13 @@ ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle p
       gate_(options_.node.odometry.max_wait, kMaxWaitingScans),
       watch_(node, private_node),
       tf_listener_(tf_, node),
+      mount_broadcaster_(options_.node.publish_mounts
+                             ? std::make_unique<tf2_ros::StaticTransformBroadcaster>()
+                             : nullptr),
       laser_mount_("laser", options_.node.laser, false, options_.node.odometry.base_frame, &tf_,
-                   &watch_),
+                   &watch_, mount_broadcaster_.get()),
       camera_mount_("camera", options_.node.camera, true, options_.node.odometry.base_frame, &tf_,
-                    &watch_),
+                    &watch_, mount_broadcaster_.get()),
       live_parameters_(private_node, Options().Parameters(), options_.Parameters(),
                        [this](const LiveParameters::Values& values) { Take(values); }) {
   model_publisher_ = node.advertise<IcpModel>("icp_model", kModelQueue);

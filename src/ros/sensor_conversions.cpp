@@ -80,6 +80,19 @@ Eigen::Isometry3d ToIsometry(const geometry_msgs::Transform& transform) {
   return isometry;
 }
 
+geometry_msgs::Transform ToTransformMessage(const Eigen::Isometry3d& isometry) {
+  const Eigen::Quaterniond q(isometry.linear());
+  geometry_msgs::Transform message;
+  message.translation.x = isometry.translation().x();
+  message.translation.y = isometry.translation().y();
+  message.translation.z = isometry.translation().z();
+  message.rotation.x = q.x();
+  message.rotation.y = q.y();
+  message.rotation.z = q.z();
+  message.rotation.w = q.w();
+  return message;
+}
+
 Pose2 ToPose2(const Eigen::Isometry3d& pose) {
   return {pose.translation().x(), pose.translation().y(),
           std::atan2(pose.linear()(1, 0), pose.linear()(0, 0))};

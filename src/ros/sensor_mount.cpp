@@ -20,13 +20,15 @@ bool Differ(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 }  // namespace
 
 SensorMount::SensorMount(std::string kind, const SensorPose& pose, bool optical,
-                         std::string base_frame, const tf2_ros::Buffer* tf, InputWatch* watch)
+                         std::string base_frame, const tf2_ros::Buffer* tf, InputWatch* watch,
+                         tf2_ros::StaticTransformBroadcaster* broadcaster)
     : kind_(std::move(kind)),
       pose_(pose),
       optical_(optical),
       base_frame_(std::move(base_frame)),
       tf_(tf),
-      watch_(watch) {}
+      watch_(watch),
+      broadcaster_(broadcaster) {}
 
 bool SensorMount::Update(const std::string& sensor_frame) {
   changed_ = false;
@@ -46,8 +48,23 @@ bool SensorMount::Update(const std::string& sensor_frame) {
   if (!base_from_sensor_) watch_->SetProblem(kind_ + " transform", lookup.problem);
   if (!lookup.found) return base_from_sensor_.has_value();
   changed_ = !base_from_sensor_ || Differ(*base_from_sensor_, lookup.base_from_sensor);
-  if (changed_) base_from_sensor_ = lookup.base_from_sensor;
+  if (changed_) {
+    base_from_sensor_ = lookup.base_from_sensor;
+    Publish();
+  }
   return true;
+}
+
+void SensorMount::Publish() const {
+  const std::string frame = StripSlash(sensor_frame_);
+  const std::string base = StripSlash(base_frame_);
+  if (broadcaster_ == nullptr || pose_.from_tf || frame.empty() || frame == base) return;
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = ros::Time::now();
+  transform.header.frame_id = base;
+  transform.child_frame_id = frame;
+  transform.transform = ToTransformMessage(*base_from_sensor_);
+  broadcaster_->sendTransform(transform);
 }
 
 }  // namespace scan_image_slam

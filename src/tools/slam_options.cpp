@@ -25,14 +25,18 @@ SlamOptions ReadSlamOptions(const std::string& config, const std::vector<std::st
   return options;
 }
 
+void AddTopicOptions(CLI::App* app, BagTopics* topics) {
+  app->add_option("--scan-topic", topics->scan, "LaserScan (default /scan)");
+  app->add_option("--image-topic", topics->image, "Image or CompressedImage (default /image_raw)");
+  app->add_option("--camera-info-topic", topics->camera_info, "CameraInfo (default /camera_info)");
+  app->add_option("--odom-topic", topics->odom, "Odometry (default /odom)");
+}
+
 void BagArguments::AddTo(CLI::App* app) {
   app->add_option("--bag", bag, "bag to read")->required();
   app->add_option("--config", config, "default, paper, or a yaml file")->capture_default_str();
   app->add_option("--set", settings, "NODE/PARAMETER=VALUE, over the configuration");
-  app->add_option("--scan-topic", topics.scan, "LaserScan (default /scan)");
-  app->add_option("--image-topic", topics.image, "Image or CompressedImage (default /image_raw)");
-  app->add_option("--camera-info-topic", topics.camera_info, "CameraInfo (default /camera_info)");
-  app->add_option("--odom-topic", topics.odom, "Odometry (default /odom)");
+  AddTopicOptions(app, &topics);
   app->add_option("--base-frame", base_frame, "frame of the robot's base");
 }
 

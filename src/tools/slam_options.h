@@ -14,6 +14,9 @@ namespace scan_image_slam {
 /// NODE/PARAMETER=VALUE, over it. Throws ParameterError for what can't be used.
 SlamOptions ReadSlamOptions(const std::string& config, const std::vector<std::string>& settings);
 
+/// Options for the topics of a bag: --scan-topic and so on.
+void AddTopicOptions(CLI::App* app, BagTopics* topics);
+
 /// What the programs that run the stages on a bag are told of it.
 struct BagArguments {
   std::string bag;

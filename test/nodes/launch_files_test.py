@@ -4,9 +4,12 @@
 import glob
 import itertools
 import os
+import shutil
 import signal
 import subprocess
+import tempfile
 import unittest
+import xml.etree.ElementTree
 
 import roslaunch
 import roslib.packages
@@ -19,17 +22,39 @@ from live_support import program, wait_for
 PACKAGE = rospkg.RosPack().get_path('scan_image_slam')
 NODES = ('scan_image_fusion', 'bounded_icp', 'mapper')
 BOOLEANS = ('true', 'false')
+# Packages that are not installed everywhere, and their programs.
+DRIVERS = {'urg_node': 'urg_node', 'usb_cam': 'usb_cam_node', 'compressed_image_transport': None}
 
 
-def load(name, **arguments):
+def load(file_name, **arguments):
     """What roslaunch would start, and with which parameters."""
-    path = os.path.join(PACKAGE, 'launch', name)
+    path = os.path.join(PACKAGE, 'launch', file_name)
     words = [f'{key}:={value}' for key, value in arguments.items()]
     return roslaunch.config.load_config_default([(path, words)], None, verbose=False)
 
 
+def stand_in(folder, package, program):
+    """A package of that name, with a program that does nothing."""
+    os.mkdir(os.path.join(folder, package))
+    with open(os.path.join(folder, package, 'package.xml'), 'w') as file:
+        file.write('<package><name>%s</name><version>0.0.0</version><description/>'
+                   '<maintainer email="a@b.invalid">a</maintainer><license>none</license>'
+                   '</package>' % package)
+    if program:
+        path = os.path.join(folder, package, program)
+        with open(path, 'w') as file:
+            file.write('#!/bin/sh\n')
+        os.chmod(path, 0o755)
+
+
 def types(config):
     return {(node.package, node.type) for node in config.nodes}
+
+
+def remaps(config, name):
+    """Of a node, without leading slashes."""
+    node = next(node for node in config.nodes if node.name == name)
+    return {key.lstrip('/'): to.lstrip('/') for key, to in node.remap_args}
 
 
 def value(config, name):
@@ -40,6 +65,15 @@ class LaunchFilesTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node('launch_files_test')
+        cls.folder = tempfile.mkdtemp()
+        cls.installed = dict(os.environ)
+        for package, program in DRIVERS.items():
+            stand_in(cls.folder, package, program)
+        os.environ['ROS_PACKAGE_PATH'] += os.pathsep + cls.folder
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
 
     def expect_programs(self, config):
         self.assertTrue(config.nodes)
@@ -53,7 +87,7 @@ class LaunchFilesTest(unittest.TestCase):
 
     def test_every_file_with_its_defaults(self):
         files = sorted(glob.glob(os.path.join(PACKAGE, 'launch', '*.launch')))
-        self.assertGreaterEqual(len(files), 3)
+        self.assertGreaterEqual(len(files), 6)
         for path in files:
             with self.subTest(os.path.basename(path)):
                 name = os.path.basename(path)
@@ -75,14 +109,10 @@ class LaunchFilesTest(unittest.TestCase):
                       camera_info_topic='cam/info', odom_topic='wheel_odom', map_frame='world',
                       base_frame='base_footprint', odom_frame='wheels', odom_source='topic',
                       image_transport='compressed')
-        remaps = {node.name: dict(node.remap_args) for node in loaded.nodes}
-        fusion = {key.lstrip('/'): to.lstrip('/')
-                  for key, to in remaps['scan_image_fusion'].items()}
-        self.assertEqual(fusion, {'scan': 'front/scan', 'image_raw': 'cam/image',
+        self.assertEqual(remaps(loaded, 'scan_image_fusion'), {'scan': 'front/scan', 'image_raw': 'cam/image',
                                   'image_raw/compressed': 'cam/image/compressed',
                                   'camera_info': 'cam/info', 'odom': 'wheel_odom'})
-        icp = {key.lstrip('/'): to.lstrip('/') for key, to in remaps['bounded_icp'].items()}
-        self.assertEqual(icp, {'odom': 'wheel_odom'})
+        self.assertEqual(remaps(loaded, 'bounded_icp'), {'odom': 'wheel_odom'})
         for node in NODES:
             self.assertEqual(value(loaded, f'/{node}/base_frame'), 'base_footprint')
             self.assertEqual(value(loaded, f'/{node}/odom_frame'), 'wheels')
@@ -138,6 +168,141 @@ class LaunchFilesTest(unittest.TestCase):
         once = next(node for node in load('bag.launch', bag='/a.bag').nodes
                     if node.name == 'player')
         self.assertNotIn('--loop', once.args)
+
+    def test_robot_hands_its_arguments_on(self):
+        loaded = load('robot.launch', config='paper', scan_topic='front/scan', odom_topic='wheels',
+                      base_frame='base_footprint', use_camera='false', rviz='true')
+        self.expect_programs(loaded)
+        self.assertIn(('rviz', 'rviz'), types(loaded))
+        self.assertEqual(remaps(loaded, 'scan_image_fusion')['scan'], 'front/scan')
+        self.assertEqual(remaps(loaded, 'bounded_icp')['odom'], 'wheels')
+        self.assertEqual(value(loaded, '/mapper/base_frame'), 'base_footprint')
+        self.assertEqual(value(loaded, '/scan_image_fusion/use_camera'), False)
+        self.assertEqual(value(loaded, '/bounded_icp/reference'), 'previous_frame')
+
+    def test_mounts_are_published_on_robots_only(self):
+        for name, arguments, published in (
+                ('robot.launch', {}, True), ('robot.launch', {'publish_mounts': 'false'}, False),
+                ('slam.launch', {}, False), ('bag.launch', {'bag': '/a.bag'}, False)):
+            with self.subTest(name=name, **arguments):
+                self.assertEqual(value(load(name, **arguments),
+                                       '/scan_image_fusion/publish_mounts'), published)
+
+    def drivers_file(self):
+        path = os.path.join(self.folder, 'drivers.launch')
+        with open(path, 'w') as file:
+            file.write('<launch><node pkg="usb_cam" type="usb_cam_node" name="mine"/></launch>')
+        return path
+
+    def test_drivers_of_ones_own(self):
+        for name, argument in (('robot.launch', 'drivers'), ('tetra_ds3.launch', 'base_launch')):
+            with self.subTest(name):
+                loaded = load(name, **{argument: self.drivers_file()})
+                self.expect_programs(loaded)
+                self.assertIn('mine', {node.name for node in loaded.nodes})
+
+    def test_tetra(self):
+        loaded = load('tetra_ds3.launch', laser_address='10.0.0.7', laser_frame='hokuyo',
+                      camera_device='/dev/video3', camera_frame='eye', odom_topic='wheels')
+        self.expect_programs(loaded)
+        self.assertEqual({node.name for node in loaded.nodes}, {'laser', 'camera', *NODES})
+        self.assertEqual(value(loaded, '/laser/ip_address'), '10.0.0.7')
+        self.assertEqual(value(loaded, '/laser/frame_id'), 'hokuyo')
+        # All 270 degrees of the laser, in radians.
+        self.assertAlmostEqual(value(loaded, '/laser/angle_min'), -2.356194, 6)
+        self.assertAlmostEqual(value(loaded, '/laser/angle_max'), 2.356194, 6)
+        self.assertEqual(value(loaded, '/laser/synchronize_time'), True)
+        self.assertEqual(value(loaded, '/camera/video_device'), '/dev/video3')
+        self.assertEqual(value(loaded, '/camera/camera_frame_id'), 'eye')
+        self.assertEqual(value(loaded, '/camera/autoexposure'), False)
+        # What the drivers publish is what the nodes read.
+        fusion = remaps(loaded, 'scan_image_fusion')
+        self.assertEqual(fusion['image_raw'], 'camera/image_raw')
+        self.assertEqual(fusion['camera_info'], 'camera/camera_info')
+        self.assertEqual(remaps(loaded, 'laser')['scan'], fusion['scan'])
+        self.assertEqual(fusion['odom'], 'wheels')
+        for node in NODES:
+            self.assertEqual(value(loaded, f'/{node}/base_frame'), 'base_footprint')
+
+    def test_tetra_takes_the_mounts_from_one_file(self):
+        path = os.path.join(self.folder, 'my.yaml')
+        with open(path, 'w') as file:
+            file.write('scan_image_fusion: {laser: {from_tf: false, x: 0.77}}')
+        loaded = load('tetra_ds3.launch', config=path)
+        self.assertEqual(value(loaded, '/scan_image_fusion/laser/x'), 0.77)
+        self.assertEqual(value(loaded, '/scan_image_fusion/publish_mounts'), True)
+        shipped = load('tetra_ds3.launch')
+        for sensor in ('laser', 'camera'):
+            self.assertEqual(value(shipped, f'/scan_image_fusion/{sensor}/from_tf'), False)
+
+    def test_tetra_without_some_drivers(self):
+        for arguments, without in (({'start_laser': 'false'}, 'laser'),
+                                   ({'start_camera': 'false'}, 'camera'),
+                                   ({'use_camera': 'false'}, 'camera')):
+            with self.subTest(**arguments):
+                names = {node.name for node in load('tetra_ds3.launch', **arguments).nodes}
+                self.assertEqual({'laser', 'camera'} - names, {without})
+
+    def test_record(self):
+        def words(**arguments):
+            loaded = load('record.launch', folder='/my bags', name='office', **arguments)
+            self.expect_programs(loaded)
+            return loaded.nodes[0].args
+
+        topics = 'scan odom image_raw/compressed camera_info /tf /tf_static'
+        usual = words().split()
+        self.assertEqual(usual[-6:], topics.split())
+        self.assertIn('--lz4', usual)
+        self.assertNotIn('--split', usual)
+        self.assertIn("'/my bags/office'", words())
+        pieces = words(split='10m', compression='bz2', image_transport='raw')
+        for part in ('--split', '--duration 10m', '--repeat-latched', '--bz2', ' image_raw '):
+            self.assertIn(part, pieces)
+        self.assertNotIn('compressed', pieces)
+        self.assertNotIn('--lz4', words(compression='none'))
+        self.assertIn('--duration 600 ', words(split='600'))
+        blind = words(use_camera='false', scan_topic='front/scan', odom_topic='wheels')
+        self.assertEqual(blind.split()[-4:], ['front/scan', 'wheels', '/tf', '/tf_static'])
+
+    def test_drivers_are_asked_for_before_they_are_started(self):
+        """Every program of another package that is not required by package.xml."""
+        package = xml.etree.ElementTree.parse(os.path.join(PACKAGE, 'package.xml')).getroot()
+        known = {depend.text for depend in package} | {'scan_image_slam'}
+        asked = 0
+        for path in glob.glob(os.path.join(PACKAGE, 'launch', '*.launch')):
+            launch = xml.etree.ElementTree.parse(path).getroot()
+            commands = ' '.join(p.get('command', '') for p in launch.iter('param'))
+            for node in launch.iter('node'):
+                if node.get('pkg') not in known:
+                    asked += 1
+                    self.assertIn(f"{node.get('pkg')} {node.get('type')} ", commands)
+        self.assertGreaterEqual(asked, 2)
+
+    def test_a_missing_driver_is_named_with_what_to_do(self):
+        tool = program('require_node.py')
+        for words, told in ((['no_such_driver'], ['package no_such_driver is not installed',
+                                                  'apt install ros-noetic-no-such-driver']),
+                            (['usb_cam', 'other', '--or', 'start_camera:=false'],
+                             ['usb_cam', 'no program other', 'start_camera:=false'])):
+            result = subprocess.run([tool, *words], stderr=subprocess.PIPE, text=True)
+            self.assertEqual(result.returncode, 1)
+            for text in told:
+                self.assertIn(text, result.stderr)
+        self.assertEqual(subprocess.run([tool, 'usb_cam', 'usb_cam_node'],
+                                        stdout=subprocess.PIPE).returncode, 0)
+
+    def test_a_missing_driver_ends_the_launch_before_anything_is_started(self):
+        stand_ins, os.environ['ROS_PACKAGE_PATH'] = (os.environ['ROS_PACKAGE_PATH'],
+                                                     self.installed['ROS_PACKAGE_PATH'])
+        try:
+            if 'urg_node' in rospkg.RosPack().list():
+                self.skipTest('urg_node is installed')
+            with self.assertRaisesRegex(roslaunch.RLException, 'urg_node'):
+                load('tetra_ds3.launch')
+            self.expect_programs(load('tetra_ds3.launch', start_laser='false',
+                                      start_camera='false'))
+        finally:
+            os.environ['ROS_PACKAGE_PATH'] = stand_ins
 
     def test_an_unknown_configuration_is_an_error(self):
         with self.assertRaises(roslaunch.RLException):

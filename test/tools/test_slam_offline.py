@@ -180,6 +180,14 @@ class SlamOffline(ToolTest):
         self.assertEqual(read(self.path("out", "online.tum")),
                          read(self.path("usual", "online.tum")))
 
+    def test_topics_that_were_recorded_without_their_slash(self):
+        bare = copy_bag(self.bag, self.path("bare.bag"), rename=lambda topic: topic[1:])
+        self.slam(bare, "--scan-topic", "scan")
+        self.slam(self.bag, out="usual")
+        self.assertGreater(self.report()["images"], 30)
+        for name in ("online.tum", "encoder.tum"):
+            self.assertEqual(read(self.path("out", name)), read(self.path("usual", name)))
+
     def test_paper_configuration(self):
         self.slam(self.bag, "--config", "paper")
         self.slam(self.bag, out="default")

@@ -31,6 +31,7 @@ OPTIONS = {
         "--odom-topic",
         "--base-frame",
     ],
+    "check_bag": ["bag", "--scan-topic", "--image-topic", "--camera-info-topic", "--odom-topic"],
     "simulate": ["--world", "--out", "--seed", "--duration", "--no-noise", "--no-images"],
     "evaluate_trajectory": ["--plot", "--align"],
     "evaluate_relations": ["--tolerance"],

@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 #include <rosbag/bag.h>
+#include <rosbag/query.h>
 
 namespace tf2 {
 class BufferCore;
@@ -33,6 +34,17 @@ struct BagTopics {
   std::string odom;
   bool use_images = true;
 };
+
+/// Opens a bag for reading. Throws BagError.
+void OpenBag(const std::string& path, rosbag::Bag* bag);
+
+/// Topics that hold transforms.
+const std::vector<std::string>& TransformTopics();
+
+/// Name of a topic with its leading slash, which some recorders leave out.
+std::string WithSlash(const std::string& topic);
+/// The messages of these topics, given with their slash, whether recorded with or without it.
+rosbag::TopicQuery WithOrWithoutSlash(const std::vector<std::string>& topics);
 
 /// Plays the sensors of a bag into a pipeline, in the order in which they were recorded.
 class BagInput {
@@ -79,7 +91,7 @@ class BagInput {
   std::string odom_topic_;
   bool odometry_from_tf_ = false;
   std::string base_frame_;
-  std::unique_ptr<tf2::BufferCore> mounts_;  ///< first transform between each two frames
+  std::unique_ptr<tf2::BufferCore> mounts_;  ///< the usual transform between each two frames
   std::optional<Eigen::Isometry3d> base_from_camera_;
   bool camera_set_ = false;
   std::map<std::string, int> refused_;

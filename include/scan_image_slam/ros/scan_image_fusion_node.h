@@ -55,6 +55,8 @@ class ScanImageFusionNode {
   InputWatch watch_;
   tf2_ros::Buffer tf_;
   tf2_ros::TransformListener tf_listener_;
+  /// One for both mounts, as each new one would hide the transforms of the last; null: none.
+  std::unique_ptr<tf2_ros::StaticTransformBroadcaster> mount_broadcaster_;
   SensorMount laser_mount_;
   SensorMount camera_mount_;
   TimeGuard time_guard_;

@@ -29,6 +29,7 @@ LaserScan ToLaserScan(const sensor_msgs::LaserScan& message);
 
 Pose2 ToPose2(const geometry_msgs::Pose& pose);
 Eigen::Isometry3d ToIsometry(const geometry_msgs::Transform& transform);
+geometry_msgs::Transform ToTransformMessage(const Eigen::Isometry3d& isometry);
 Pose2 ToPose2(const Eigen::Isometry3d& pose);
 
 /// Intrinsics of the picture as it comes: with binning and the sensor's region of interest.

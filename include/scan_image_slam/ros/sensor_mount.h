@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 #include <tf2_ros/buffer.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 
 namespace scan_image_slam {
 
@@ -16,9 +17,10 @@ namespace scan_image_slam {
 class SensorMount {
  public:
   /// `kind` names the sensor in messages; `optical`: poses given by parameters are those of a
-  /// camera.
+  /// camera. With a `broadcaster` such poses are published as static transforms.
   SensorMount(std::string kind, const SensorPose& pose, bool optical, std::string base_frame,
-              const tf2_ros::Buffer* tf, InputWatch* watch);
+              const tf2_ros::Buffer* tf, InputWatch* watch,
+              tf2_ros::StaticTransformBroadcaster* broadcaster);
 
   /// True if the pose is known; `changed` tells whether it is another than at the last call.
   bool Update(const std::string& sensor_frame);
@@ -26,13 +28,16 @@ class SensorMount {
   const Eigen::Isometry3d& base_from_sensor() const { return *base_from_sensor_; }
 
  private:
+  void Publish() const;
+
   std::string kind_;
   SensorPose pose_;
   bool optical_;
   std::string base_frame_;
   const tf2_ros::Buffer* tf_;
   InputWatch* watch_;
-  std::string sensor_frame_;  ///< of the last message
+  tf2_ros::StaticTransformBroadcaster* broadcaster_;  ///< may be null
+  std::string sensor_frame_;                          ///< of the last message
   std::optional<Eigen::Isometry3d> base_from_sensor_;
   ros::WallTime looked_up_;
   bool changed_ = false;

@@ -208,6 +208,9 @@ ParameterSet FusionParameters(ScanImageFusionOptions* o, ScanImageFusionNodeOpti
           "raw, compressed, or another transport of image_transport");
   AddSensorPose("laser", &node->laser, &set);
   AddSensorPose("camera", &node->camera, &set);
+  set.Add("publish_mounts", &node->publish_mounts,
+          "publish the poses of laser and camera that are given above as static transforms; not "
+          "where others publish them");
   set.Add("min_range", &o->scan.min_range, "m", kNotNegative,
           "nearer hits are not used, beside the range_min of the scan");
   set.Add("max_range", &o->scan.max_range, "m", kPositive,

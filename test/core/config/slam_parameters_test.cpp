@@ -96,7 +96,7 @@ TEST(SlamParameters, ThatShapeWhatIsKeptAreNotLive) {
   std::set<std::string> live;
   ForEachParameter(&options, [&](const ParameterSet& set, const Parameter& p) {
     if (p.live) live.insert(set.node() + "/" + p.name);
-    if (p.type == "string") EXPECT_FALSE(p.live);
+    EXPECT_FALSE(p.type == "string" && p.live);
   });
   EXPECT_EQ(live.count("bounded_icp/refinement/gate"), 1U);
   for (const char* name :

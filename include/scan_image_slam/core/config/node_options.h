@@ -36,6 +36,7 @@ struct ScanImageFusionNodeOptions {
   OdometryInput odometry;
   SensorPose laser;
   SensorPose camera;
+  bool publish_mounts = false;  ///< those that are not taken from TF
   bool use_camera = true;
   std::string image_transport = "raw";
 };
