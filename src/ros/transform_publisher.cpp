@@ -25,6 +25,7 @@ void TransformPublisher::Publish() {
   geometry_msgs::TransformStamped transform;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (child_.empty()) return;
     transform.header.frame_id = options_.map_frame;
     transform.child_frame_id = child_;
     transform.transform = ToTransformMessage(map_from_child_);

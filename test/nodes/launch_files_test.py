@@ -90,6 +90,18 @@ class LaunchFilesTest(unittest.TestCase):
         self.assertEqual(value(loaded, '/scan_image_fusion/image_transport'), 'compressed')
         self.assertEqual(value(loaded, '/bounded_icp/odom_source'), 'topic')
 
+    def test_slam_with_a_saved_map(self):
+        loaded = load('slam.launch', state='office.state', localization='true')
+        self.assertEqual(value(loaded, '/mapper/state_file'), 'office.state')
+        self.assertEqual(value(loaded, '/mapper/localization'), True)
+        self.assertFalse(next(n for n in loaded.nodes if n.name == 'mapper').respawn)
+        saving = load('slam.launch', state='office.state', autosave='60')
+        self.assertEqual(value(saving, '/mapper/autosave_period'), 60)
+        self.assertTrue(next(n for n in saving.nodes if n.name == 'mapper').respawn)
+        played = load('bag.launch', bag='/a.bag', state='/b.state', localization='true')
+        self.assertEqual(value(played, '/mapper/state_file'), '/b.state')
+        self.assertEqual(value(played, '/mapper/localization'), True)
+
     def test_slam_takes_the_path_of_a_configuration(self):
         path = os.path.join(PACKAGE, 'config', 'paper.yaml')
         self.assertEqual(value(load('slam.launch', config=path), '/bounded_icp/reference'),
