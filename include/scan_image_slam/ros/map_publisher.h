@@ -18,7 +18,7 @@ class MapPublisher {
   void Publish(OccupancyGrid* grid, const ros::Time& stamp);
 
   /// The next grid is another one: nothing of the last is left.
-  void StartOver() { box_ = CellBox(); }
+  void StartOver();
 
   /// The whole grid as it is now.
   const nav_msgs::OccupancyGrid& Current(OccupancyGrid* grid, const ros::Time& stamp);
