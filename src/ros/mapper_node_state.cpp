@@ -24,7 +24,7 @@ void MapperNode::StartWithStateFile() {
   }
   options.state_file = PathFrom(options.map_folder, options.state_file);
   if (options.localization || std::filesystem::exists(options.state_file)) {
-    Load(options.state_file);
+    Load(ReadState(options.state_file), options.state_file);
     changed_ = false;
   } else {
     ROS_WARN_STREAM("there is no " << options.state_file << ": the map begins empty");
@@ -35,8 +35,7 @@ void MapperNode::StartWithStateFile() {
                                         [this](const ros::WallTimerEvent&) { Autosave(); });
 }
 
-void MapperNode::Load(const std::string& path) {
-  const MapState state = ReadState(path);
+void MapperNode::Load(const MapState& state, const std::string& path) {
   mapper_.Load(state, options_.node.localization ? MapUse::kLocalize : MapUse::kContinue);
   back_end_.Load(state.graph);
   StartOver();
@@ -52,7 +51,7 @@ void MapperNode::Autosave() {
   FinishAutosave();
   if (!changed_ || !mapper_.growing()) return;
   changed_ = false;
-  autosaved_ = back_end_.Save(mapper_.drawn(), options_.node.state_file);
+  autosaved_ = back_end_.Save(mapper_.State(), options_.node.state_file);
 }
 
 /// Waits for a file that is being written.
@@ -78,7 +77,7 @@ MapperNode::~MapperNode() {
 bool MapperNode::SaveState(StateFileRequest& request, StateFileResponse& response) {
   try {
     response.path = PathInside(options_.node.map_folder, request.path);
-    back_end_.Save(mapper_.drawn(), response.path).get();
+    back_end_.Save(mapper_.State(), response.path).get();
     response.success = true;
   } catch (const std::exception& error) {
     response.message = error.what();
@@ -90,7 +89,9 @@ bool MapperNode::SaveState(StateFileRequest& request, StateFileResponse& respons
 bool MapperNode::LoadState(StateFileRequest& request, StateFileResponse& response) {
   try {
     response.path = PathFrom(options_.node.map_folder, request.path);
-    Load(response.path);
+    MapState state = ReadState(response.path);
+    state.chain = KnownChain();  // who loads another map has a reason to look for the robot
+    Load(state, response.path);
     response.success = true;
   } catch (const std::exception& error) {
     response.message = error.what();

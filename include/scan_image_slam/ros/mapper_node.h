@@ -57,7 +57,7 @@ class MapperNode {
   bool SaveState(StateFileRequest& request, StateFileResponse& response);
   bool LoadState(StateFileRequest& request, StateFileResponse& response);
   void StartWithStateFile();
-  void Load(const std::string& path);
+  void Load(const MapState& state, const std::string& path);
   void Autosave();
   void FinishAutosave();
   void PublishPose(const MapPose& pose);

@@ -58,13 +58,14 @@ void BackEndThread::Load(GraphMemory graph) {
       true);
 }
 
-std::future<void> BackEndThread::Save(std::vector<DrawnScan> drawn, std::string path) {
+std::future<void> BackEndThread::Save(MapState state, std::string path) {
   auto written = std::make_shared<std::promise<void>>();  // shared, as jobs can be copied
   std::future<void> future = written->get_future();
   Post(
-      [drawn = std::move(drawn), path = std::move(path), written](BackEnd& back_end) {
+      [state = std::move(state), path = std::move(path), written](BackEnd& back_end) mutable {
         try {
-          WriteState({back_end.loop_closer().memory(), drawn}, path);
+          state.graph = back_end.loop_closer().memory();
+          WriteState(state, path);
           written->set_value();
         } catch (...) {
           written->set_exception(std::current_exception());

@@ -98,6 +98,13 @@ void Mapper::BeginChain(const MatchedMotion& match) {
   }
   start_stamp_ = match.start_stamp;
   map_from_start_ = map_from_base * match.start_from_base().Inverse();
+  // Another process has followed this chain up to a moment ago: no need to search.
+  if (lost_ && match.start_stamp == loaded_chain_.start_stamp &&
+      match.stamp > loaded_chain_.stamp) {
+    map_from_start_ = loaded_chain_.map_from_start;
+    lost_ = false;
+    joined_ = false;
+  }
   start_covariance_ =
       TransportCovariance(last_.covariance, last_.map_from_base.Inverse() * map_from_start_);
 }
@@ -274,6 +281,14 @@ std::vector<MapPose> Mapper::Trajectory() const {
   return poses;
 }
 
+MapState Mapper::State() const {
+  MapState state;
+  state.drawn = drawn_;
+  state.chain = loaded_chain_;
+  if (growing() && start_stamp_) state.chain = {*start_stamp_, last_.stamp, map_from_start_};
+  return state;
+}
+
 void Mapper::Load(const MapState& state, MapUse use) {
   if (use == MapUse::kLocalize && state.graph.keyframes.empty()) {
     throw std::invalid_argument("the state holds no map to localise in");
@@ -281,6 +296,7 @@ void Mapper::Load(const MapState& state, MapUse use) {
   *this = Mapper(options_);
   keyframe_poses_ = state.graph.poses;
   drawn_ = state.drawn;
+  loaded_chain_ = state.chain;
   for (const DrawnScan& drawn : drawn_) grid_.Add(*drawn.scan, drawn.map_from_base);
   to_redraw_ = drawn_.size();  // what the graph knew better when it was saved
   if (!state.graph.keyframes.empty()) way_ = state.graph.keyframes.back()->way;

@@ -223,6 +223,9 @@ std::string EncodeState(const MapState& state) {
   out.Write(static_cast<std::int32_t>(state.graph.closures_since_optimization));
   PutCount(state.drawn.size(), &out);
   for (const DrawnScan& drawn : state.drawn) Put(drawn, &out);
+  out.Write(state.chain.start_stamp);
+  out.Write(state.chain.stamp);
+  Put(state.chain.map_from_start, &out);
   out.WriteAt(kCheckSumAt, CheckSum(out.bytes(), kHeader));
   out.WriteAt(kSizeAt, static_cast<std::uint64_t>(out.bytes().size() - kHeader));
   return out.Take();
@@ -248,7 +251,10 @@ MapState DecodeState(const std::string& bytes) {
   const std::size_t drawn = in.ReadCount(kDrawnBytes, "drawn scans");
   state.drawn.reserve(drawn);
   for (std::size_t i = 0; i < drawn; ++i) state.drawn.push_back(GetDrawn(&in, count));
-  if (in.left() > 0) in.Fail("something follows the last scan");
+  state.chain.start_stamp = in.Read<Stamp>();
+  state.chain.stamp = in.Read<Stamp>();
+  state.chain.map_from_start = GetPose(&in);
+  if (in.left() > 0) in.Fail("something follows that does not belong to it");
   return state;
 }
 

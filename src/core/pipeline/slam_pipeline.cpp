@@ -25,6 +25,12 @@ void SlamPipeline::Load(const MapState& state, MapUse use) {
   back_end_.Load(state.graph);
 }
 
+MapState SlamPipeline::Save() const {
+  MapState state = mapper_.State();
+  state.graph = back_end_.loop_closer().memory();
+  return state;
+}
+
 void SlamPipeline::AddOdometry(Stamp stamp, const Pose2& odom_from_base, Stamp now) {
   fusion_.AddOdometry(stamp, odom_from_base);
   bounded_icp_.AddOdometry(stamp, odom_from_base);

@@ -50,7 +50,7 @@ TEST(StateFile, HoldsEveryNumberBitForBit) {
 
 TEST(StateFile, AnEmptyMapIsAState) {
   const std::string bytes = EncodeState(MapState());
-  EXPECT_EQ(bytes.size(), kContent + 4 * 4);  // three counts and the closures
+  EXPECT_EQ(bytes.size(), kContent + 4 * 4 + 2 * 8 + 3 * 8);  // counts, closures, the chain
   ExpectSame(DecodeState(bytes), MapState());
 }
 

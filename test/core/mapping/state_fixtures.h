@@ -21,6 +21,7 @@ class DistinctNumbers {
     state.graph.constraints.back().robust = true;
     state.graph.closures_since_optimization = 7;
     for (int keyframe = -1; keyframe < 2; ++keyframe) state.drawn.push_back(NextDrawn(keyframe));
+    state.chain = {1'700'000'000'000'000'111LL, 1'700'000'000'000'000'222LL, NextPose()};
     return state;
   }
 
@@ -135,6 +136,9 @@ inline void ExpectSame(const GraphMemory& a, const GraphMemory& b) {
 
 inline void ExpectSame(const MapState& a, const MapState& b) {
   ExpectSame(a.graph, b.graph);
+  EXPECT_EQ(a.chain.start_stamp, b.chain.start_stamp);
+  EXPECT_EQ(a.chain.stamp, b.chain.stamp);
+  ExpectSame(a.chain.map_from_start, b.chain.map_from_start);
   ASSERT_EQ(a.drawn.size(), b.drawn.size());
   for (std::size_t i = 0; i < a.drawn.size(); ++i) {
     EXPECT_EQ(a.drawn[i].pose.keyframe, b.drawn[i].pose.keyframe);

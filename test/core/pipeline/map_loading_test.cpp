@@ -145,6 +145,40 @@ TEST_F(MapLoading, ALostRobotCanBeToldWhereItIs) {
   EXPECT_LT((pose.translation() - truth.translation()).norm(), 0.04);
 }
 
+TEST_F(MapLoading, AChainOfMatchesThatGoesOnNeedsNoSearch) {
+  // In a plain corridor no search would find the robot.
+  const auto match_at = [](int i) {
+    MatchedMotion match;
+    match.start_stamp = kRunStart;
+    match.stamp = kRunStart + i * 100'000'000LL;
+    match.motion = {0.1 * i, 0.0, 0.0};
+    match.status = MatchStatus::kMatched;
+    return match;
+  };
+  const auto feed = [&](Mapper* mapper, int i) {
+    const MatchedMotion match = match_at(i);
+    const MapPose pose = mapper->AddMatch(match);
+    mapper->AddModel(ModelOf(PlainCorridor(), match.motion, match.stamp, TestLaser()), match);
+    return pose;
+  };
+  Mapper mapper{MapperOptions()};
+  mapper.SetPose({2, 3, 0.5});
+  for (int i = 0; i < 30; ++i) feed(&mapper, i);
+  MapState state = mapper.State();
+  state.graph = saved_.graph;  // any will do
+  Mapper respawned{MapperOptions()};
+  respawned.Load(state, MapUse::kContinue);
+  const MapPose later = feed(&respawned, 40);
+  ASSERT_FALSE(later.lost);
+  const Pose2 expected = Pose2{2, 3, 0.5} * Pose2{4.0, 0, 0};
+  EXPECT_NEAR(later.map_from_base.x, expected.x, 1e-9);
+  EXPECT_NEAR(later.map_from_base.y, expected.y, 1e-9);
+  // The same recording from its beginning is another matter: what was saved is its end.
+  Mapper replayed{MapperOptions()};
+  replayed.Load(state, MapUse::kContinue);
+  EXPECT_TRUE(feed(&replayed, 5).lost);
+}
+
 TEST_F(MapLoading, AnEmptyMapIsNothingToLocaliseIn) {
   PipelineRun after;
   EXPECT_THROW(after.pipeline.Load(MapState(), MapUse::kLocalize), std::invalid_argument);

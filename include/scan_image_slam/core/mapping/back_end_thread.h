@@ -45,9 +45,9 @@ class BackEndThread {
   /// Starts with another map, as number 0 does.
   void Load(GraphMemory graph);
 
-  /// Writes the state of all keyframes given so far and of these scans. The future holds the
+  /// Writes a state, its graph being that of all keyframes given so far. The future holds the
   /// exception of WriteState if the file can't be written.
-  std::future<void> Save(std::vector<DrawnScan> drawn, std::string path);
+  std::future<void> Save(MapState state, std::string path);
 
   /// What was found since the last call.
   BackEndNews Take();

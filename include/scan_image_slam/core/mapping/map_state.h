@@ -32,10 +32,18 @@ struct GraphMemory {
   int closures_since_optimization = 0;  ///< of the whole graph
 };
 
+/// Where a chain of matches lay in the map when its match of `stamp` came.
+struct KnownChain {
+  Stamp start_stamp = 0;
+  Stamp stamp = 0;
+  Pose2 map_from_start;
+};
+
 /// All of a map: enough to draw it again, cell by cell, and to go on with it.
 struct MapState {
   GraphMemory graph;
   std::vector<DrawnScan> drawn;
+  KnownChain chain;  ///< that was followed last
 };
 
 }  // namespace scan_image_slam

@@ -65,8 +65,12 @@ class Mapper {
   /// Moves the first keyframes to these poses, map_from_base, and what came later with the last.
   void Correct(const std::vector<Pose2>& keyframe_poses);
 
+  /// The map as it is now, but for its graph, which is the back-end's.
+  MapState State() const;
+
   /// Takes up a map instead of the present one. The robot is lost until Locate or SetPose, unless
-  /// the map is empty. Throws std::invalid_argument if it is empty and to localise in.
+  /// the map is empty or the chain of matches goes on that was followed when it was saved. Throws
+  /// std::invalid_argument if it is empty and to localise in.
   void Load(const MapState& state, MapUse use);
 
   /// The robot was found in the map, or lost. What was seen before the last SetPose is ignored.
@@ -131,6 +135,7 @@ class Mapper {
   std::vector<DrawnScan> drawn_;
   std::size_t to_redraw_ = 0;  ///< the scans before this one may lie where they were
 
+  KnownChain loaded_chain_;
   bool localize_ = false;              ///< the map stays as it is
   bool lost_ = false;                  ///< nobody knows where the robot is in the map
   std::optional<Stamp> told_stamp_;    ///< of the last scan before SetPose

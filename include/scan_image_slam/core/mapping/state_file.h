@@ -9,7 +9,8 @@ namespace scan_image_slam {
 /// A state as bytes: numbers with the low byte first.
 ///
 ///   8 bytes "SISTATE\n", u32 version, u32 CRC-32 and u64 size of what follows
-///   keyframes, their poses, constraints, drawn scans, each as a u32 count and the things
+///   keyframes, their poses, constraints, drawn scans, each as a u32 count and the things; the
+///   chain
 ///
 /// The field-by-field order is that of the structs in map_state.h; a keyframe's number is its
 /// place. A field more or less is a new version.

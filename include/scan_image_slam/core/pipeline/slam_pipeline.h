@@ -36,7 +36,7 @@ class SlamPipeline {
   /// Takes up a map that was saved; see Mapper::Load.
   void Load(const MapState& state, MapUse use);
   /// The map as it is now, to be saved.
-  MapState Save() const { return {back_end_.loop_closer().memory(), mapper_.drawn()}; }
+  MapState Save() const;
 
   /// Inputs, in the order of their arrival at times `now` [ns].
   void AddOdometry(Stamp stamp, const Pose2& odom_from_base, Stamp now);
