@@ -162,6 +162,22 @@ TEST(Localizer, TellsThatARobotWasCarriedAwayAndFindsIt) {
   ExpectAt(localizer.Look(robot.See({0.5, -2, 0})), robot.start());
 }
 
+TEST(Localizer, TellsThatARobotSeesThroughTheWallsOfTheMap) {
+  const LocalizerOptions options;
+  Localizer localizer(MapOfAngledRoom(), options);
+  Room larger = AngledRoom();
+  for (Wall& wall : larger) wall = {2.5 * wall.from, 2.5 * wall.to};
+  Robot robot(larger, 30.0);
+  std::optional<Location> told;
+  for (int i = 0; i < options.max_misses; ++i) {
+    EXPECT_FALSE(told);
+    const Pose2 pose{-1 + 0.2 * i, -1, 0.3};
+    told = localizer.Look(robot.See(pose, pose));
+  }
+  ASSERT_TRUE(told);
+  EXPECT_FALSE(told->map_from_start);
+}
+
 TEST(Localizer, LeavesARobotAloneThatDrivesBeyondTheMap) {
   // Only the south side is known, and the corner where the east side begins.
   Localizer localizer(MapOf(RingOfCorridors(), {{-7, -4}, {3, -4}}, 4.0), LocalizerOptions());
