@@ -117,6 +117,8 @@ TEST_F(MapLoading, ARobotThatIsCarriedAwayIsLostAndFoundAgain) {
   const auto lost = std::find_if(after.results.begin() + static_cast<std::ptrdiff_t>(carried),
                                  after.results.end(), [](const auto& r) { return r.pose.lost; });
   EXPECT_NE(lost, after.results.end());
+  EXPECT_NE(after.results.back().match.start_stamp, after.results.front().match.start_stamp)
+      << "the matching has started over";
   const MapPose& last = after.results.back().pose;
   ASSERT_FALSE(last.lost);
   const Pose2 expected = first_.PoseAt(0.0).Inverse() * truth;
