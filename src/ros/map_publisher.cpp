@@ -31,6 +31,12 @@ MapPublisher::MapPublisher(ros::NodeHandle node, std::string map_frame)
   updates_publisher_ = node.advertise<map_msgs::OccupancyGridUpdate>("map_updates", 10);
 }
 
+void MapPublisher::StartOver() {
+  map_ = nav_msgs::OccupancyGrid();
+  box_ = CellBox();
+  changed_ = CellBox();
+}
+
 /// Brings `map_` up to date; true if anything has changed.
 bool MapPublisher::Refresh(OccupancyGrid* grid, const ros::Time& stamp) {
   CellBox changed = grid->TakeChanges();

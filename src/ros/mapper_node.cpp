@@ -2,6 +2,7 @@
 
 #include "scan_image_slam/core/mapping/map_file.h"
 #include "scan_image_slam/ros/graph_markers.h"
+#include "scan_image_slam/ros/map_files.h"
 #include "scan_image_slam/ros/node_parameters.h"
 #include "scan_image_slam/ros/publish_shared.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
@@ -20,20 +21,6 @@ namespace {
 
 constexpr std::uint32_t kQueue = 40;
 
-/// The place of a file inside a folder, absolute. Throws std::invalid_argument if it is outside.
-std::filesystem::path PathInFolder(const std::string& folder, const std::string& name) {
-  namespace fs = std::filesystem;
-  if (name.empty()) throw std::invalid_argument("the name of the map is empty");
-  const fs::path root = fs::weakly_canonical(fs::absolute(folder));
-  fs::path path = fs::weakly_canonical(root / name);
-  const fs::path relative = path.lexically_relative(root);
-  if (relative.empty() || *relative.begin() == ".." || relative == ".") {
-    throw std::invalid_argument(path.string() + " lies outside the folder " + root.string() +
-                                " (parameter map_folder of the mapper)");
-  }
-  return path;
-}
-
 }  // namespace
 
 MapperNode::Options MapperNode::ReadOptions(const ros::NodeHandle& private_node) {
@@ -46,7 +33,7 @@ MapperNode::Options MapperNode::ReadOptions(const ros::NodeHandle& private_node)
 MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadOptions(private_node)),
       mapper_(options_.mapper),
-      loop_closing_(options_.loop_closer),
+      back_end_(options_.loop_closer),
       watch_(node, private_node),
       transform_publisher_(node, options_.node),
       map_publisher_(node, options_.node.map_frame),
@@ -63,6 +50,13 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
   reset_service_ = node.advertiseService("reset", &MapperNode::Reset, this);
   pause_service_ = node.advertiseService("pause", &MapperNode::Pause, this);
   save_map_service_ = node.advertiseService("save_map", &MapperNode::SaveMap, this);
+  save_state_service_ = node.advertiseService("save_state", &MapperNode::SaveState, this);
+  load_state_service_ = node.advertiseService("load_state", &MapperNode::LoadState, this);
+  watch_.AddValue("mode", [this] {
+    return mapper_.lost() ? "lost" : mapper_.growing() ? "mapping" : "localization";
+  });
+  watch_.AddValue("agreement with the loaded map", [this] { return std::to_string(agreement_); });
+  StartWithStateFile();
 
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   initial_pose_subscriber_ = node.subscribe("initialpose", 1, &MapperNode::OnInitialPose, this);
@@ -81,7 +75,7 @@ void MapperNode::Take(const LiveParameters::Values& values) {
   Options options = options_;
   options.Parameters().Set(values);
   mapper_.SetOptions(options.mapper);
-  loop_closing_.SetOptions(options.loop_closer);
+  back_end_.SetOptions(options.loop_closer);
   transform_publisher_.SetTiming(options.node);
   map_timer_.setPeriod(ros::WallDuration(options.node.map_update_interval));
   options_ = options;
@@ -90,7 +84,7 @@ void MapperNode::Take(const LiveParameters::Values& values) {
 void MapperNode::OnMatch(const ScanMatchConstPtr& message) {
   watch_.Arrived(match_subscriber_.getTopic());
   try {
-    ApplyLoopClosures();
+    ApplyNews();
     const MatchedMotion match = FromMessage(*message);
     if (last_pose_ && match.stamp < last_pose_->stamp) {
       trajectory_.Clear();
@@ -105,6 +99,13 @@ void MapperNode::OnMatch(const ScanMatchConstPtr& message) {
 
 void MapperNode::PublishPose(const MapPose& pose) {
   last_pose_ = pose;
+  watch_.SetProblem("location", pose.lost ? "the robot has not been found in the loaded map: drive "
+                                            "on, or tell where it is by initialpose"
+                                          : "");
+  if (pose.lost) {
+    transform_publisher_.Stop();
+    return;
+  }
   PublishShared(pose_publisher_, ToMessage(pose, options_.node.map_frame));
   trajectory_.Add(pose.stamp, pose.map_from_base);
   if (pose.map_from_odom) {
@@ -116,10 +117,14 @@ void MapperNode::PublishPose(const MapPose& pose) {
 }
 
 void MapperNode::OnMatchedModel(const IcpModelConstPtr& model, const ScanMatchConstPtr& match) {
-  if (paused_) return;
+  if (paused_ && mapper_.growing()) return;
   try {
-    const auto keyframe = mapper_.AddModel(FromMessage(*model), FromMessage(*match));
-    if (keyframe) loop_closing_.Add(keyframe);
+    const FusedModel scan = FromMessage(*model);
+    const MatchedMotion motion = FromMessage(*match);
+    const std::size_t drawn = mapper_.drawn().size();
+    if (const auto keyframe = mapper_.AddModel(scan, motion)) back_end_.Add(keyframe);
+    changed_ = changed_ || mapper_.drawn().size() > drawn;
+    if (auto sighting = mapper_.Look(scan, motion)) back_end_.Look(std::move(*sighting));
   } catch (const std::invalid_argument& error) {
     watch_.Refuse(paired_model_subscriber_.getTopic(), error.what());
   }
@@ -141,14 +146,29 @@ void MapperNode::OnInitialPose(const geometry_msgs::PoseWithCovarianceStampedCon
 }
 
 /// Takes in what the back-end has found, and a little of the drawing that follows from it.
-void MapperNode::ApplyLoopClosures() {
+void MapperNode::ApplyNews() {
   constexpr int kScansAtOnce = 4;
   mapper_.Redraw(kScansAtOnce);
-  std::optional<GraphState> found = loop_closing_.Take();
-  if (!found) return;
-  mapper_.Correct(found->poses);
-  graph_ = std::move(found);
+  BackEndNews news = back_end_.Take();
+  if (news.location) ApplyLocation(*news.location);
+  if (!news.graph) return;
+  mapper_.Correct(news.graph->poses);
+  graph_ = std::move(news.graph);
   trajectory_moved_ = true;
+  changed_ = true;
+}
+
+void MapperNode::ApplyLocation(const Location& location) {
+  const bool was_lost = mapper_.lost();
+  mapper_.Locate(location);
+  agreement_ = location.agreement;
+  if (was_lost && !mapper_.lost()) {
+    ROS_INFO_STREAM("the robot was found in the loaded map, agreement " << agreement_);
+  } else if (!was_lost && mapper_.lost()) {
+    ROS_WARN_STREAM("the robot is not where it was thought to be in the loaded map, agreement "
+                    << agreement_ << ": looking for it");
+    ResetMatching();  // its surroundings are others
+  }
 }
 
 void MapperNode::PublishMap() {
@@ -173,16 +193,27 @@ bool MapperNode::GetMap(nav_msgs::GetMap::Request&, nav_msgs::GetMap::Response& 
 
 bool MapperNode::Reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   mapper_.Reset();
+  StartOver();
+  ResetMatching();
+  response.success = true;
+  response.message = "map and matching start over";
+  return true;
+}
+
+void MapperNode::ResetMatching() {
+  std_msgs::String command;
+  command.data = "reset";
+  PublishShared(command_publisher_, command);
+}
+
+/// Nothing is left of what was told of the map before.
+void MapperNode::StartOver() {
   last_pose_.reset();
   graph_.reset();
   trajectory_.Clear();
   encoder_trajectory_.Clear();
-  std_msgs::String command;
-  command.data = "reset";
-  PublishShared(command_publisher_, command);
-  response.success = true;
-  response.message = "map and matching start over";
-  return true;
+  map_publisher_.StartOver();
+  if (mapper_.lost()) transform_publisher_.Stop();
 }
 
 bool MapperNode::Pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
@@ -196,9 +227,9 @@ bool MapperNode::SaveMap(SaveMapRequest& request, SaveMapResponse& response) {
   try {
     const MapImage map = ToMapImage(mapper_.grid());
     if (map.width == 0) throw std::runtime_error("there is no map yet");
-    const std::filesystem::path stem = PathInFolder(options_.node.map_folder, request.name);
-    std::filesystem::create_directories(stem.parent_path());
-    response.path = WriteMap(map, stem.string());
+    const std::string stem = PathInside(options_.node.map_folder, request.name);
+    std::filesystem::create_directories(std::filesystem::path(stem).parent_path());
+    response.path = WriteMap(map, stem);
     response.success = true;
   } catch (const std::exception& error) {
     response.success = false;

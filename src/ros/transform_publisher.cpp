@@ -32,6 +32,7 @@ void TransformPublisher::Publish() {
   ros::Duration delay;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (child_.empty()) return;
     transform.header.frame_id = options_.map_frame;
     transform.child_frame_id = child_;
     transform.transform = ToTransformMessage(map_from_child_);

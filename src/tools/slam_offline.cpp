@@ -6,6 +6,7 @@
 #include "scan_image_slam/core/fusion/fusion_picture.h"
 #include "scan_image_slam/core/mapping/map_file.h"
 #include "scan_image_slam/core/mapping/map_picture.h"
+#include "scan_image_slam/core/mapping/state_file.h"
 #include "scan_image_slam/core/pipeline/slam_pipeline.h"
 #include "scan_image_slam/ros/bag_input.h"
 #include "slam_options.h"
@@ -36,6 +37,9 @@ struct Arguments {
   bool no_images = false;
   int fusion_images = 0;  ///< every so many images a picture; 0: none
   int threads = 1;
+  std::string state;  ///< to begin with; empty: none
+  bool localization = false;
+  std::string save_state;  ///< to be written; empty: none
 };
 
 /// Milliseconds that the stages took for each scan: wall time, and processor time of this thread.
@@ -91,15 +95,23 @@ struct Run {
                                                 {"laser_only", 0.0},
                                                 {"coasting", 0.0}};
   int window_edge_hits = 0;
+  int scans = 0;
+  Stamp first_stamp = 0;
+  Stamp last_stamp = 0;
+  double lost_s = 0.0;  ///< without a pose in the map that was loaded
 
   void Add(const PipelineResult& result) {
-    if (!online.empty()) {
+    if (scans++ == 0) {
+      first_stamp = result.pose.stamp;
+    } else {
       constexpr double kLaserGap = 0.5;  // longer without a scan: the pose rested on the rest [s]
-      const double seconds = Seconds(result.pose.stamp - online.back().stamp);
+      const double seconds = Seconds(result.pose.stamp - last_stamp);
       const MatchMode mode = seconds > kLaserGap ? MatchMode::kCoasting : result.match.mode;
       seconds_in_mode[ModeName(mode)] += seconds;
+      if (result.pose.lost) lost_s += seconds;
     }
-    online.push_back({result.pose.stamp, result.pose.map_from_base});
+    last_stamp = result.pose.stamp;
+    if (!result.pose.lost) online.push_back({result.pose.stamp, result.pose.map_from_base});
     if (result.match.odom_from_base) {
       encoder.push_back({result.pose.stamp, *result.match.odom_from_base});
     }
@@ -139,8 +151,11 @@ double PeakMemoryMegabytes() {
 /// The encoders' path as it would lie in the map: beginning at the same pose as the estimate.
 std::vector<Pose2> EncoderPathInMap(const Run& run) {
   std::vector<Pose2> path;
-  if (run.encoder.empty()) return path;
-  const Pose2 map_from_odom = run.online.front().pose * run.encoder.front().pose.Inverse();
+  const auto from = std::find_if(run.encoder.begin(), run.encoder.end(), [&](const auto& p) {
+    return p.stamp >= run.online.front().stamp;
+  });
+  if (from == run.encoder.end()) return path;
+  const Pose2 map_from_odom = run.online.front().pose * from->pose.Inverse();
   for (const StampedPose& p : run.encoder) path.push_back(map_from_odom * p.pose);
   return path;
 }
@@ -188,6 +203,10 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
         times.FinishScan();
       },
       run_stage);
+  if (!arguments.state.empty()) {
+    pipeline.Load(ReadState(arguments.state),
+                  arguments.localization ? MapUse::kLocalize : MapUse::kContinue);
+  }
   const auto begin = std::chrono::steady_clock::now();
   ProgressLine progress("slam_offline");
   input.Play(&pipeline, run_stage, [&](double share) { progress.Show(share); });
@@ -197,7 +216,11 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
   for (const auto& [reason, count] : input.refused()) {
     std::cerr << "refused " << count << " x " << reason << "\n";
   }
-  if (run.online.empty()) throw BagError(arguments.input.bag + ": no scan could be used");
+  if (run.scans == 0) throw BagError(arguments.input.bag + ": no scan could be used");
+  if (run.online.empty()) {
+    throw BagError(arguments.input.bag + ": the robot was not found in the map of " +
+                   arguments.state);
+  }
 
   pipeline.mapper().Redraw(std::numeric_limits<int>::max());
   Trajectory trajectory;
@@ -205,12 +228,14 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
     trajectory.push_back({pose.stamp, pose.map_from_base});
   }
   WriteResults(arguments, run, trajectory, pipeline.mapper().grid());
-  const double recorded = Seconds(run.online.back().stamp - run.online.front().stamp);
+  if (!arguments.save_state.empty()) WriteState(pipeline.Save(), arguments.save_state);
+  const double recorded = Seconds(run.last_stamp - run.first_stamp);
   nlohmann::json report = {
-      {"scans", run.online.size()},
+      {"scans", run.scans},
+      {"lost_s", run.lost_s},
       {"images", input.images()},
       {"real_time_factor", recorded / std::max(1e-9, seconds)},
-      {"cpu_ms_per_scan", times.cpu_ms() / static_cast<double>(run.online.size())},
+      {"cpu_ms_per_scan", times.cpu_ms() / run.scans},
       {"peak_memory_mb", PeakMemoryMegabytes()},
       {"stages", times.Report()},
       {"window_edge_hits", run.window_edge_hits},
@@ -236,6 +261,11 @@ int Main(int argc, char** argv) {
   app.add_option("--threads", arguments.threads, "threads of the image processing")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));
+  CLI::Option* state =
+      app.add_option("--state", arguments.state, "map to begin with, as --save-state wrote it");
+  app.add_flag("--localization", arguments.localization, "leave the map of --state as it is")
+      ->needs(state);
+  app.add_option("--save-state", arguments.save_state, "write the map, to go on with it later");
   SlamOptions options;
   return RunTool(
       &app, argc, argv, "slam_offline",

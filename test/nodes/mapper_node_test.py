@@ -176,8 +176,9 @@ class MapperNodeTest(unittest.TestCase):
                          published.info.height)
 
     def test_updates_are_what_has_changed(self):
+        known = len(self.maps.messages)
         self.drive(3)
-        whole = self.maps.find(lambda m: m.header.stamp.to_sec() > 0, 'a map')
+        whole = wait_for(lambda: self.maps.messages[known:], 'the new map')[0]
         heard = len(self.updates.messages)
         self.drive(10)
         update = wait_for(lambda: self.updates.messages[heard:], 'an update')[-1]

@@ -88,6 +88,12 @@ class WrongParametersTest(unittest.TestCase):
     def test_parameters_that_do_not_fit_each_other(self):
         self.expect_end('scan_image_fusion', {'min_range': 2.0, 'max_range': 1.0},
                         '/scan_image_fusion/max_range must be greater than min_range')
+        self.expect_end('mapper', {'localization': True},
+                        'mapper/localization: needs mapper/state_file')
+        self.expect_end('mapper', {'autosave_period': 60.0},
+                        'mapper/autosave_period: needs mapper/state_file')
+        self.expect_end('mapper', {'localization': True, 'state_file': '/none/at.all'},
+                        '/none/at.all: No such file')
 
     def test_the_full_name_has_the_namespace(self):
         self.expect_end('mapper', {'reslution': 0.1}, '/robot1/cartographer/reslution: unknown',

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scan_image_slam/core/mapping/loop_closing_thread.h"
+#include "scan_image_slam/core/mapping/back_end_thread.h"
 
 #include <string>
 

@@ -17,6 +17,9 @@ class MapPublisher {
   /// Publishes what has changed since the last call, if anything.
   void Publish(OccupancyGrid* grid, const ros::Time& stamp);
 
+  /// The next grid is another one: nothing of the last is left.
+  void StartOver();
+
   /// The whole grid as it is now.
   const nav_msgs::OccupancyGrid& Current(OccupancyGrid* grid, const ros::Time& stamp);
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scan_image_slam/core/config/slam_parameters.h"
-#include "scan_image_slam/core/mapping/loop_closing_thread.h"
+#include "scan_image_slam/core/mapping/back_end_thread.h"
 #include "scan_image_slam/core/mapping/mapper.h"
 #include "scan_image_slam/ros/input_watch.h"
 #include "scan_image_slam/ros/live_parameters.h"
@@ -11,7 +11,9 @@
 #include <scan_image_slam/IcpModel.h>
 #include <scan_image_slam/SaveMap.h>
 #include <scan_image_slam/ScanMatch.h>
+#include <scan_image_slam/StateFile.h>
 
+#include <future>
 #include <optional>
 #include <string>
 
@@ -29,11 +31,15 @@ namespace scan_image_slam {
 
 /// Node around Mapper: `scan_match`, `icp_model` and `initialpose` in; `pose`, `trajectory`,
 /// `encoder_trajectory`, `pose_graph`, `map`, `map_metadata`, `map_updates` and TF out; services
-/// `dynamic_map`, `reset`, `pause` and `save_map`.
+/// `dynamic_map`, `reset`, `pause`, `save_map`, `save_state` and `load_state`.
 class MapperNode {
  public:
   /// Throws ParameterError or std::invalid_argument if the configuration is wrong.
   MapperNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  /// Saves the map a last time, if it is saved on its own at all.
+  ~MapperNode();
+  MapperNode(const MapperNode&) = delete;
+  MapperNode& operator=(const MapperNode&) = delete;
 
  private:
   struct Options {
@@ -51,18 +57,30 @@ class MapperNode {
   bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool Pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool SaveMap(SaveMapRequest& request, SaveMapResponse& response);
+  bool SaveState(StateFileRequest& request, StateFileResponse& response);
+  bool LoadState(StateFileRequest& request, StateFileResponse& response);
+  void StartWithStateFile();
+  void Load(const MapState& state, const std::string& path);
+  void Autosave();
+  void FinishAutosave();
   void PublishPose(const MapPose& pose);
-  void ApplyLoopClosures();
+  void ApplyNews();
+  void ApplyLocation(const Location& location);
+  void StartOver();
+  void ResetMatching();
   void PublishMap();
 
   Options options_;
   Mapper mapper_;
-  LoopClosingThread loop_closing_;
+  BackEndThread back_end_;
   std::optional<GraphState> graph_;
   bool trajectory_moved_ = false;  ///< the path is to be told anew, with the next map
   bool paused_ = false;
   bool has_encoders_ = false;
   std::optional<MapPose> last_pose_;
+  double agreement_ = 0.0;       ///< of the last scan that was looked for in a loaded map [-]
+  bool changed_ = false;         ///< the map, since it was last saved on its own
+  std::future<void> autosaved_;  ///< valid while a file is being written
   InputWatch watch_;
   TransformPublisher transform_publisher_;
   MapPublisher map_publisher_;
@@ -75,12 +93,15 @@ class MapperNode {
   ros::ServiceServer reset_service_;
   ros::ServiceServer pause_service_;
   ros::ServiceServer save_map_service_;
+  ros::ServiceServer save_state_service_;
+  ros::ServiceServer load_state_service_;
   ros::Subscriber match_subscriber_;
   ros::Subscriber initial_pose_subscriber_;
   message_filters::Subscriber<IcpModel> paired_model_subscriber_;
   message_filters::Subscriber<ScanMatch> paired_match_subscriber_;
   message_filters::TimeSynchronizer<IcpModel, ScanMatch> pairs_;
   ros::WallTimer map_timer_;
+  ros::WallTimer autosave_timer_;
   LiveParameters live_parameters_;
 };
 

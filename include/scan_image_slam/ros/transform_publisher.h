@@ -25,6 +25,8 @@ class TransformPublisher {
 
   /// From now on `map_frame` -> `child`, e.g. the odometry's frame.
   void Set(const std::string& child, const Pose2& map_from_child);
+  /// Nothing until the next call of Set: nobody knows where the robot is.
+  void Stop() { Set("", Pose2()); }
 
  private:
   void Publish();

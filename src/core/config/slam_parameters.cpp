@@ -285,8 +285,15 @@ ParameterSet MapperParameters(MapperOptions* o, LoopCloserOptions* loop, MapperN
   set.Add("trajectory_spacing", &node->trajectory_spacing, "m", kNotNegative,
           "between the poses of the paths");
   set.Add("map_folder", &node->map_folder,
-          "folder that save_map writes to, and nothing outside it; relative paths start at the "
-          "working directory of the node (with roslaunch: ~/.ros)");
+          "folder that save_map and save_state write to, and nothing outside it; relative paths "
+          "start at the working directory of the node (with roslaunch: ~/.ros)");
+  set.Add("state_file", &node->state_file,
+          "map to begin with, as save_state wrote it, from map_folder on; it need not be there, "
+          "but for localization");
+  set.Add("localization", &node->localization,
+          "find and follow the robot in the map of state_file, which stays as it is");
+  set.Add("autosave_period", &node->autosave_period, "s", {0.0, 86400.0},
+          "the map is written to state_file so often, and at the end; 0: not at all");
   set.Add("resolution", &o->grid.resolution, "m", {0.001, 10.0}, "side of a cell of the map");
   set.Add("update_factor_occupied", &o->grid.update_factor_occupied, "-", {0.501, 0.999},
           "probability that a cell with one hit is occupied");

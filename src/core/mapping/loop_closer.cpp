@@ -29,23 +29,19 @@ void LoopCloser::SetOptions(const LoopCloserOptions& options) {
 }
 
 bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
-  if (!options_.enabled) return false;
   if (keyframe->id == 0) *this = LoopCloser(options_);  // the map has begun anew
   const int id = static_cast<int>(keyframes_.size());
-  keyframes_.push_back(std::move(keyframe));
+  Enter(std::move(keyframe));
   const Keyframe& added = *keyframes_.back();
-  neighbours_.emplace_back();
   if (id == 0) {
     poses_.push_back(added.previous_from_base);
   } else {
     poses_.push_back(poses_.back() * added.previous_from_base);
     constraints_.push_back(
         {id - 1, id, added.previous_from_base, added.covariance.inverse(), !added.joined});
-    const double way = added.way - keyframes_[id - 1]->way;
-    neighbours_[id].push_back({id - 1, way});
-    neighbours_[id - 1].push_back({id, way});
+    Join(constraints_.back());
   }
-  ExtendSubmaps();
+  if (!options_.enabled) return false;
   const std::vector<std::pair<int, int>> candidates = Candidates(id);
   if (candidates.empty()) return false;
   std::vector<GraphConstraint> closures;
@@ -54,12 +50,33 @@ bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
     if (auto closure = Close(id, submap_id, near_id, way[near_id])) closures.push_back(*closure);
   }
   if (closures.empty()) return false;
-  for (const GraphConstraint& closure : closures) {
-    neighbours_[closure.from].push_back({closure.to, 0.5});
-    neighbours_[closure.to].push_back({closure.from, 0.5});
-  }
+  for (const GraphConstraint& closure : closures) Join(closure);
   Optimize(closures);
   return true;
+}
+
+void LoopCloser::Load(GraphMemory memory) {
+  *this = LoopCloser(options_);
+  for (auto& keyframe : memory.keyframes) Enter(std::move(keyframe));
+  poses_ = std::move(memory.poses);
+  constraints_ = std::move(memory.constraints);
+  for (const GraphConstraint& constraint : constraints_) Join(constraint);
+  closures_since_optimization_ = memory.closures_since_optimization;
+}
+
+void LoopCloser::Enter(std::shared_ptr<const Keyframe> keyframe) {
+  keyframes_.push_back(std::move(keyframe));
+  neighbours_.emplace_back();
+  ExtendSubmaps();
+}
+
+/// Makes two keyframes neighbours, as far from one another as they may have drifted.
+void LoopCloser::Join(const GraphConstraint& constraint) {
+  constexpr double kRecognised = 0.5;  // [m]
+  const auto [from, to] = std::make_pair(constraint.from, constraint.to);
+  const double way = from + 1 == to ? keyframes_[to]->way - keyframes_[from]->way : kRecognised;
+  neighbours_[from].push_back({to, way});
+  neighbours_[to].push_back({from, way});
 }
 
 void LoopCloser::ExtendSubmaps() {
@@ -83,10 +100,9 @@ Submap& LoopCloser::GetSubmap(int id) {
   cached.used = ++use_count_;
   if (!cached.submap) {
     const Range range = submaps_[id];
-    cached.submap = std::make_unique<Submap>(
-        std::vector<std::shared_ptr<const Keyframe>>(keyframes_.begin() + range.begin,
-                                                     keyframes_.begin() + range.end),
-        options_.submap);
+    const std::vector<std::shared_ptr<const Keyframe>> keyframes(keyframes_.begin() + range.begin,
+                                                                 keyframes_.begin() + range.end);
+    cached.submap = std::make_unique<Submap>(keyframes, ChainOf(keyframes), options_.submap);
   }
   if (static_cast<int>(cache_.size()) > options_.max_cached_submaps) {
     const auto oldest = std::min_element(

@@ -45,7 +45,9 @@ void Compare(const LoopQuery& query, const Submap& submap, const LoopMatcherOpti
     }
   }
   match->agreement = static_cast<double>(matched) / std::max(1, matched + contradicted);
-  match->overlap = static_cast<double>(matched) / std::max<std::size_t>(1, query.points.size());
+  const double points = static_cast<double>(std::max<std::size_t>(1, query.points.size()));
+  match->overlap = matched / points;
+  match->contradiction = contradicted / points;
 }
 
 /// Step of the search in angle at which the far points move by about one cell.
@@ -56,11 +58,45 @@ double AngleStep(const std::vector<Eigen::Vector2d>& points, double cell_size) {
   return std::clamp(1.5 * cell_size / mean_range, 0.008, 0.05);
 }
 
+/// True if a wall of the submap stands between the laser and a point, well before it.
+bool IsBehindWall(const SurfacePoint& point, const Submap& submap,
+                  const RigidTransform2& submap_from_base) {
+  constexpr double kStep = 0.1;       // along the ray [m]
+  constexpr double kBegin = 0.3;      // nearer to the laser nothing is looked at [m]
+  constexpr double kBehind = 0.5;     // at least, of the point behind the wall [m]
+  constexpr double kAcross = 0.05;    // from the wall that counts as met [m]
+  constexpr double kMinCosine = 0.5;  // between ray and normal: walls beside the ray hide nothing
+  const Eigen::Vector2d end = submap_from_base * point.point;
+  const Eigen::Vector2d ray = submap_from_base.Rotate(point.ray);
+  for (double left = point.range - kBegin; left > kBehind; left -= kStep) {
+    const Eigen::Vector2d place = end - left * ray;
+    const SurfaceElement* wall = submap.local_map().Nearest(place);
+    if (wall == nullptr) continue;
+    const Eigen::Vector2d normal = wall->normal.cast<double>();
+    const Eigen::Vector2d offset = place - wall->position.cast<double>();
+    // What others have looked through was there for a moment only.
+    if (-normal.dot(ray) > kMinCosine && std::abs(normal.dot(offset)) < kAcross &&
+        offset.norm() < kStep && !submap.seen().IsFree(wall->position.cast<double>())) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
-std::optional<LoopMatch> TrackInSubmap(const LoopQuery& query, const Submap& submap,
-                                       const Pose2& submap_from_base,
-                                       const LoopMatcherOptions& options) {
+double ShareBehindWalls(const LoopQuery& query, const Submap& submap,
+                        const Pose2& submap_from_base) {
+  const RigidTransform2 transform(submap_from_base);
+  const auto behind =
+      std::count_if(query.points.begin(), query.points.end(),
+                    [&](const SurfacePoint& p) { return IsBehindWall(p, submap, transform); });
+  return static_cast<double>(behind) /
+         std::max<double>(1.0, static_cast<double>(query.points.size()));
+}
+
+LoopMatch RefineInSubmap(const LoopQuery& query, const Submap& submap,
+                         const Pose2& submap_from_base, const LoopMatcherOptions& options) {
   const double s = options.prior_distance;
   const double a = options.prior_angle;
   MotionPrior prior;
@@ -74,6 +110,13 @@ std::optional<LoopMatch> TrackInSubmap(const LoopQuery& query, const Submap& sub
   match.submap_from_base = refined.map_from_base;
   match.information = refined.information;
   Compare(query, submap, options, &match);
+  return match;
+}
+
+std::optional<LoopMatch> TrackInSubmap(const LoopQuery& query, const Submap& submap,
+                                       const Pose2& submap_from_base,
+                                       const LoopMatcherOptions& options) {
+  const LoopMatch match = RefineInSubmap(query, submap, submap_from_base, options);
   if (match.agreement < options.min_agreement || match.overlap < options.min_overlap) {
     return std::nullopt;
   }

@@ -1,6 +1,7 @@
 #include "scan_image_slam/core/mapping/mapper.h"
 
 #include "scan_image_slam/core/geometry/covariance.h"
+#include "scan_image_slam/core/mapping/grid_scan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,32 +11,6 @@
 
 namespace scan_image_slam {
 namespace {
-
-GridScan ToGridScan(const FusedModel& model, const Velocity2& sweep_correction,
-                    const OccupancyGridOptions& options) {
-  GridScan scan;
-  scan.origin = model.base_from_laser.translation();
-  scan.beams.reserve(model.beams.size());
-  for (const ModelBeam& beam : model.beams) {
-    if (beam.hit() && beam.range <= options.max_range) {
-      const Eigen::Vector2d end = Move(sweep_correction, beam.time_offset) * beam.point;
-      scan.beams.push_back({end.cast<float>(), true});
-      continue;
-    }
-    const bool far_hit = beam.hit();
-    const bool clears =
-        far_hit || options.no_return_policy == NoReturnPolicy::kClearToMaxLegacy ||
-        (options.no_return_policy == NoReturnPolicy::kClearToMax && std::isinf(beam.range));
-    if (!clears) continue;
-    const double heading = model.HeadingOf(beam);
-    const Velocity2 velocity = model.sweep_velocity + sweep_correction;
-    const Eigen::Vector2d end =
-        scan.origin + options.max_range * Eigen::Vector2d(std::cos(heading), std::sin(heading));
-    const Eigen::Vector2d moved = Move(velocity, beam.time_offset) * end;
-    scan.beams.push_back({moved.cast<float>(), false});
-  }
-  return scan;
-}
 
 /// Stands for what was driven while the matching could not follow: so far may the pose have drifted
 /// [m].
@@ -87,7 +62,13 @@ void Mapper::SetOptions(const MapperOptions& options) {
 }
 
 void Mapper::BeginChain(const MatchedMotion& match) {
-  if (start_stamp_ && match.start_stamp < last_.stamp) Reset();
+  if (start_stamp_ && match.start_stamp < last_.stamp) {
+    if (growing()) {
+      Reset();
+    } else {
+      Forget();
+    }
+  }
   Pose2 map_from_base;
   if (!has_pose_) {
     if (match.odom_from_base) map_from_base = *match.odom_from_base;
@@ -98,6 +79,13 @@ void Mapper::BeginChain(const MatchedMotion& match) {
   }
   start_stamp_ = match.start_stamp;
   map_from_start_ = map_from_base * match.start_from_base().Inverse();
+  // Another process has followed this chain up to a moment ago: no need to search.
+  if (lost_ && match.start_stamp == loaded_chain_.start_stamp &&
+      match.stamp > loaded_chain_.stamp) {
+    map_from_start_ = loaded_chain_.map_from_start;
+    lost_ = false;
+    joined_ = false;
+  }
   start_covariance_ =
       TransportCovariance(last_.covariance, last_.map_from_base.Inverse() * map_from_start_);
 }
@@ -105,6 +93,7 @@ void Mapper::BeginChain(const MatchedMotion& match) {
 MapPose Mapper::AddMatch(const MatchedMotion& match) {
   if (!start_stamp_ || match.start_stamp != *start_stamp_) BeginChain(match);
   last_.stamp = match.stamp;
+  last_.lost = lost_;
   last_.map_from_base = map_from_start_ * match.start_from_base();
   last_.covariance =
       TransportCovariance(start_covariance_, match.start_from_base()) + match.covariance;
@@ -114,7 +103,7 @@ MapPose Mapper::AddMatch(const MatchedMotion& match) {
   }
   has_pose_ = true;
   if (!IsReliable(match.status)) joined_ = false;
-  tracked_.push_back({match.stamp, Attach(last_.map_from_base)});
+  if (!lost_) tracked_.push_back({match.stamp, Attach(last_.map_from_base)});
   return last_;
 }
 
@@ -130,9 +119,21 @@ bool Mapper::WorthDrawing(const MatchedMotion& match, const Pose2& map_from_base
 bool Mapper::WorthKeeping(const MatchedMotion& match) const {
   if (!IsReliable(match.status)) return false;
   if (keyframe_poses_.empty() || match.start_stamp != kept_start_stamp_) return true;
-  const Pose2 moved = Attach(map_from_start_ * match.start_from_base()).keyframe_from_base;
-  return moved.translation().norm() >= options_.keyframe_distance ||
-         std::abs(moved.theta) >= options_.keyframe_angle;
+  return IsFar(Attach(map_from_start_ * match.start_from_base()).keyframe_from_base);
+}
+
+/// Also where the robot stands, and where the matching is at a loss: it may have been carried away.
+bool Mapper::WorthLooking(const MatchedMotion& match) const {
+  constexpr double kPeriod = 1.0;  // [s]
+  if (!looked_stamp_ || match.start_stamp != looked_start_stamp_) return true;
+  if (Seconds(match.stamp - *looked_stamp_) >= kPeriod) return true;
+  return IsReliable(match.status) &&
+         (!joined_ || IsFar(start_from_looked_.Inverse() * match.start_from_base()));
+}
+
+bool Mapper::IsFar(const Pose2& motion) const {
+  return motion.translation().norm() >= options_.keyframe_distance ||
+         std::abs(motion.theta) >= options_.keyframe_angle;
 }
 
 std::shared_ptr<const Keyframe> Mapper::Keep(const FusedModel& model, const MatchedMotion& match) {
@@ -163,26 +164,49 @@ std::shared_ptr<const Keyframe> Mapper::Keep(const FusedModel& model, const Matc
 
 std::shared_ptr<const Keyframe> Mapper::AddModel(const FusedModel& model,
                                                  const MatchedMotion& match) {
+  if (!growing()) return nullptr;
   const Pose2 map_from_base = map_from_start_ * match.start_from_base();
   std::shared_ptr<const Keyframe> keyframe;
   if (WorthKeeping(match)) keyframe = Keep(model, match);
   if (WorthDrawing(match, map_from_base)) {
-    drawn_.push_back({ToGridScan(model, match.sweep_correction, options_.grid),
+    drawn_.push_back({std::make_shared<const GridScan>(
+                          MakeGridScan(model, match.sweep_correction, options_.grid)),
                       Attach(map_from_base), map_from_base});
-    grid_.Add(drawn_.back().scan, map_from_base);
+    grid_.Add(*drawn_.back().scan, map_from_base);
     drawn_stamp_ = match.stamp;
     map_from_drawn_ = map_from_base;
   }
   return keyframe;
 }
 
-Mapper::Attached Mapper::Attach(const Pose2& map_from_base) const {
+std::optional<Sighting> Mapper::Look(const FusedModel& model, const MatchedMotion& match) {
+  if (growing() || !WorthLooking(match)) return std::nullopt;
+  Sighting sighting;
+  sighting.start_stamp = match.start_stamp;
+  sighting.start_from_base = match.start_from_base();
+  if (!lost_) sighting.map_from_base = map_from_start_ * sighting.start_from_base;
+  Keyframe& keyframe = sighting.keyframe;
+  keyframe = MakeKeyframe(model, match, options_.keyframe);
+  keyframe.joined = joined_ && looked_stamp_ && match.start_stamp == looked_start_stamp_;
+  if (keyframe.joined) {
+    keyframe.previous_from_base = start_from_looked_.Inverse() * sighting.start_from_base;
+    looked_way_ += keyframe.previous_from_base.translation().norm();
+  }
+  keyframe.way = looked_way_;
+  joined_ = true;
+  looked_stamp_ = match.stamp;
+  looked_start_stamp_ = match.start_stamp;
+  start_from_looked_ = sighting.start_from_base;
+  return sighting;
+}
+
+AttachedPose Mapper::Attach(const Pose2& map_from_base) const {
   if (keyframe_poses_.empty()) return {-1, map_from_base};
   return {static_cast<int>(keyframe_poses_.size()) - 1,
           keyframe_poses_.back().Inverse() * map_from_base};
 }
 
-Pose2 Mapper::MapFromBase(const Attached& pose) const {
+Pose2 Mapper::MapFromBase(const AttachedPose& pose) const {
   if (pose.keyframe < 0) return pose.keyframe_from_base;
   return keyframe_poses_[pose.keyframe] * pose.keyframe_from_base;
 }
@@ -194,11 +218,17 @@ void Mapper::Correct(const std::vector<Pose2>& keyframe_poses) {
   for (std::size_t i = keyframe_poses.size(); i < keyframe_poses_.size(); ++i) {
     keyframe_poses_[i] = moved * keyframe_poses_[i];
   }
-  map_from_start_ = moved * map_from_start_;
-  map_from_drawn_ = moved * map_from_drawn_;
-  last_.map_from_base = moved * last_.map_from_base;
-  if (last_.map_from_odom) last_.map_from_odom = moved * *last_.map_from_odom;
+  if (growing()) {
+    MoveRobot(moved);
+    map_from_drawn_ = moved * map_from_drawn_;
+  }
   to_redraw_ = drawn_.size();
+}
+
+void Mapper::MoveRobot(const Pose2& new_from_old) {
+  map_from_start_ = new_from_old * map_from_start_;
+  last_.map_from_base = new_from_old * last_.map_from_base;
+  if (last_.map_from_odom) last_.map_from_odom = new_from_old * *last_.map_from_odom;
 }
 
 bool Mapper::Redraw(int max_scans) {
@@ -212,8 +242,8 @@ bool Mapper::Redraw(int max_scans) {
         std::abs(moved.theta) < kAngle) {
       continue;
     }
-    grid_.Remove(drawn.scan, drawn.map_from_base);
-    grid_.Add(drawn.scan, map_from_base);
+    grid_.Remove(*drawn.scan, drawn.map_from_base);
+    grid_.Add(*drawn.scan, map_from_base);
     drawn.map_from_base = map_from_base;
     --max_scans;
   }
@@ -232,13 +262,66 @@ std::vector<MapPose> Mapper::Trajectory() const {
   return poses;
 }
 
+MapState Mapper::State() const {
+  MapState state;
+  state.drawn = drawn_;
+  state.chain = loaded_chain_;
+  if (growing() && start_stamp_) state.chain = {*start_stamp_, last_.stamp, map_from_start_};
+  return state;
+}
+
+void Mapper::Load(const MapState& state, MapUse use) {
+  if (use == MapUse::kLocalize && state.graph.keyframes.empty()) {
+    throw std::invalid_argument("the state holds no map to localise in");
+  }
+  *this = Mapper(options_);
+  keyframe_poses_ = state.graph.poses;
+  drawn_ = state.drawn;
+  loaded_chain_ = state.chain;
+  for (const DrawnScan& drawn : drawn_) grid_.Add(*drawn.scan, drawn.map_from_base);
+  to_redraw_ = drawn_.size();  // what the graph knew better when it was saved
+  if (!state.graph.keyframes.empty()) way_ = state.graph.keyframes.back()->way;
+  localize_ = use == MapUse::kLocalize;
+  lost_ = !keyframe_poses_.empty();
+}
+
+void Mapper::Reset() {
+  if (localize_) {
+    Forget();
+  } else {
+    *this = Mapper(options_);
+  }
+}
+
+/// Leaves the map as it is, and the robot to be found in it.
+void Mapper::Forget() {
+  lost_ = true;
+  start_stamp_.reset();
+  looked_stamp_.reset();
+  told_stamp_.reset();
+  last_ = MapPose();
+  has_pose_ = false;
+  tracked_.clear();
+}
+
+void Mapper::Locate(const Location& location) {
+  const bool of_this_chain = start_stamp_ && location.start_stamp == *start_stamp_;
+  const bool outdated = told_stamp_ && location.stamp <= *told_stamp_;
+  if (growing() || !of_this_chain || outdated) return;
+  if (lost_ && location.map_from_start) start_covariance_.setZero();
+  lost_ = !location.map_from_start;
+  if (lost_) return;
+  MoveRobot(*location.map_from_start * map_from_start_.Inverse());
+  if (growing()) joined_ = false;  // the first keyframe does not follow the last one of the map
+}
+
 void Mapper::SetPose(const Pose2& map_from_base) {
-  const Pose2 new_from_old = map_from_base * last_.map_from_base.Inverse();
-  map_from_start_ = new_from_old * map_from_start_;
-  if (last_.map_from_odom) last_.map_from_odom = new_from_old * *last_.map_from_odom;
+  MoveRobot(map_from_base * last_.map_from_base.Inverse());
   last_.map_from_base = map_from_base;
   has_pose_ = true;
   joined_ = false;
+  lost_ = false;
+  told_stamp_ = last_.stamp;
 }
 
 }  // namespace scan_image_slam

@@ -1,21 +1,19 @@
 #include "scan_image_slam/core/mapping/submap.h"
 
+#include <utility>
+
 namespace scan_image_slam {
 
 Submap::Submap(const std::vector<std::shared_ptr<const Keyframe>>& keyframes,
-               const SubmapOptions& options)
-    : local_map_(options.local_map, options.noise),
+               std::vector<Pose2> submap_from_keyframes, const SubmapOptions& options)
+    : submap_from_keyframes_(std::move(submap_from_keyframes)),
+      local_map_(options.local_map, options.noise),
       edge_map_(options.edge_map),
       pyramid_options_(options.pyramid) {
-  Pose2 submap_from_base;
-  for (const auto& keyframe : keyframes) {
-    if (!submap_from_keyframes_.empty()) {
-      submap_from_base = submap_from_base * keyframe->previous_from_base;
-    }
-    submap_from_keyframes_.push_back(submap_from_base);
-    local_map_.Insert(ToSurfacePoints(*keyframe, Pose2()), submap_from_base);
-    edge_map_.Insert(DistinctEdges(keyframe->edges, options.edge_map), submap_from_base,
-                     keyframe->covariance);
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    local_map_.Insert(ToSurfacePoints(*keyframes[i], Pose2()), submap_from_keyframes_[i]);
+    edge_map_.Insert(DistinctEdges(keyframes[i]->edges, options.edge_map),
+                     submap_from_keyframes_[i], keyframes[i]->covariance);
   }
   FindSeenSpace(keyframes);
 }
@@ -47,6 +45,14 @@ const ScorePyramid& Submap::pyramid() {
     pyramid_.emplace(places, pyramid_options_);
   }
   return *pyramid_;
+}
+
+std::vector<Pose2> ChainOf(const std::vector<std::shared_ptr<const Keyframe>>& keyframes) {
+  std::vector<Pose2> poses;
+  for (const auto& keyframe : keyframes) {
+    poses.push_back(poses.empty() ? Pose2() : poses.back() * keyframe->previous_from_base);
+  }
+  return poses;
 }
 
 }  // namespace scan_image_slam

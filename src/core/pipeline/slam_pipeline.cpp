@@ -17,8 +17,19 @@ SlamPipeline::SlamPipeline(const SlamOptions& options, OnResult on_result, RunSt
       fusion_(options.fusion),
       bounded_icp_(options.bounded_icp),
       mapper_(options.mapper),
-      loop_closer_(options.loop_closer),
+      back_end_(options.loop_closer),
       gate_(options.fusion_node.odometry.max_wait, kMaxWaitingScans) {}
+
+void SlamPipeline::Load(const MapState& state, MapUse use) {
+  mapper_.Load(state, use);
+  back_end_.Load(state.graph);
+}
+
+MapState SlamPipeline::Save() const {
+  MapState state = mapper_.State();
+  state.graph = back_end_.loop_closer().memory();
+  return state;
+}
 
 void SlamPipeline::AddOdometry(Stamp stamp, const Pose2& odom_from_base, Stamp now) {
   fusion_.AddOdometry(stamp, odom_from_base);
@@ -50,15 +61,24 @@ void SlamPipeline::ReleaseScans(Stamp now) {
 void SlamPipeline::Process(const LaserScan& scan) {
   PipelineResult result;
   std::shared_ptr<const Keyframe> keyframe;
+  std::optional<Sighting> sighting;
   run_(Stage::kFusion, [&] { result.model = fusion_.Fuse(scan); });
   run_(Stage::kMatch, [&] { result.match = bounded_icp_.Match(result.model); });
   run_(Stage::kMap, [&] {
     result.pose = mapper_.AddMatch(result.match);
     keyframe = mapper_.AddModel(result.model, result.match);
+    sighting = mapper_.Look(result.model, result.match);
   });
   if (keyframe) {
     run_(Stage::kLoop, [&] {
-      if (loop_closer_.Add(keyframe)) mapper_.Correct(loop_closer_.poses());
+      if (back_end_.Add(keyframe)) mapper_.Correct(loop_closer().poses());
+    });
+  }
+  if (sighting) {
+    run_(Stage::kLoop, [&] {
+      const bool was_lost = mapper_.lost();
+      if (const auto location = back_end_.Look(*sighting)) mapper_.Locate(*location);
+      if (mapper_.lost() && !was_lost) bounded_icp_.Reset();  // its surroundings are others
     });
   }
   on_result_(result);

@@ -1,11 +1,8 @@
 #include "scan_image_slam/core/mapping/loop_closer.h"
 
 #include "loop_fixtures.h"
-#include "scan_image_slam/core/mapping/loop_closing_thread.h"
 
-#include <chrono>
 #include <cstring>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -46,6 +43,25 @@ TEST(LoopCloser, TheSameKeyframesGiveTheSameBits) {
   const std::vector<Pose2> b = PosesAfter(drive, &second);
   ASSERT_EQ(a.size(), b.size());
   EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(Pose2)), 0);
+}
+
+TEST(LoopCloser, GoesOnFromItsMemoryAsIfItHadNotStopped) {
+  const DriftingDrive drive = Drive(RingOfCorridors(), TwiceAroundTheRing(), {1.005, 0.0005});
+  LoopCloser whole{LoopCloserOptions()};
+  PosesAfter(drive, &whole);
+  LoopCloser first{LoopCloserOptions()};
+  const std::size_t half = 3 * drive.keyframes.size() / 4;  // some loops are closed already
+  for (std::size_t i = 0; i < half; ++i) first.Add(drive.keyframes[i]);
+  ASSERT_GT(first.closures(), 5);
+  LoopCloser second{LoopCloserOptions()};
+  second.Add(drive.keyframes.front());  // what it knew before is gone
+  second.Load(first.memory());
+  for (std::size_t i = half; i < drive.keyframes.size(); ++i) second.Add(drive.keyframes[i]);
+  EXPECT_EQ(second.closures(), whole.closures());
+  ASSERT_EQ(second.poses().size(), whole.poses().size());
+  EXPECT_EQ(std::memcmp(second.poses().data(), whole.poses().data(),
+                        whole.poses().size() * sizeof(Pose2)),
+            0);
 }
 
 TEST(LoopCloser, KeyframeZeroStartsANewMap) {
@@ -89,41 +105,6 @@ TEST(LoopCloser, EqualRoomsOnTheWayBackAreThoseOfTheWayThere) {
   const std::vector<Pose2> poses = PosesAfter(drive, &closer);
   // A pitch is 4 m: a single wrong room would show. The way is 0.5 % too long.
   EXPECT_LT(LargestError(poses, drive.truth), 0.5);
-}
-
-TEST(LoopClosingThread, FindsWhatTheCloserFinds) {
-  const DriftingDrive drive = Drive(RingOfCorridors(), TwiceAroundTheRing(), {1.005, 0.0005});
-  LoopCloser closer{LoopCloserOptions()};
-  const std::vector<Pose2> expected = PosesAfter(drive, &closer);
-  LoopClosingThread thread{LoopCloserOptions()};
-  for (const auto& keyframe : drive.keyframes) thread.Add(keyframe);
-  std::vector<Pose2> found;
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-  while (found.size() < expected.size() && std::chrono::steady_clock::now() < deadline) {
-    if (const auto state = thread.Take()) found = state->poses;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  ASSERT_EQ(found.size(), expected.size());
-  EXPECT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(Pose2)), 0);
-}
-
-TEST(LoopClosingThread, EndsWhileKeyframesWait) {
-  const DriftingDrive drive = Drive(RingOfCorridors(), TwiceAroundTheRing(), {1.005, 0.0005});
-  LoopClosingThread thread{LoopCloserOptions()};
-  for (const auto& keyframe : drive.keyframes) thread.Add(keyframe);
-}
-
-TEST(LoopClosingThread, ANewMapDropsWhatWasFoundInTheOld) {
-  const DriftingDrive drive = Drive(RingOfCorridors(), TwiceAroundTheRing(), {1.005, 0.0005});
-  LoopClosingThread thread{LoopCloserOptions()};
-  for (const auto& keyframe : drive.keyframes) thread.Add(keyframe);
-  thread.Add(drive.keyframes.front());
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-  while (thread.waiting() > 0 && std::chrono::steady_clock::now() < deadline) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  EXPECT_EQ(thread.waiting(), 0);
-  EXPECT_FALSE(thread.Take().has_value());
 }
 
 }  // namespace

@@ -8,7 +8,8 @@ namespace scan_image_slam {
 namespace {
 
 Submap SubmapAt(const Room& room, const Pose2& room_from_base) {
-  return Submap({std::make_shared<Keyframe>(KeyframeAt(room, room_from_base, 0))}, SubmapOptions());
+  return Submap({std::make_shared<Keyframe>(KeyframeAt(room, room_from_base, 0))}, {Pose2()},
+                SubmapOptions());
 }
 
 LoopQuery QueryAt(const Room& room, const Pose2& room_from_base) {

@@ -54,7 +54,10 @@ struct MapperNodeOptions {
   double tf_delay = 0.05;                  ///< transforms are stamped so far ahead [s]
   double map_update_interval = 1.0;        ///< [s]
   double trajectory_spacing = 0.05;        ///< between the poses of the paths [m]
-  std::string map_folder = "maps";         ///< the only place that save_map writes to
+  std::string map_folder = "maps";         ///< the only place that services write to
+  std::string state_file;                  ///< map to begin with; empty: none
+  bool localization = false;               ///< leave it as it is
+  double autosave_period = 0.0;            ///< between two savings of it; 0: none [s]
 };
 
 }  // namespace scan_image_slam

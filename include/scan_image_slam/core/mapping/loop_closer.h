@@ -2,6 +2,7 @@
 
 #include "scan_image_slam/core/mapping/keyframe.h"
 #include "scan_image_slam/core/mapping/loop_matcher.h"
+#include "scan_image_slam/core/mapping/map_state.h"
 #include "scan_image_slam/core/mapping/pose_graph.h"
 #include "scan_image_slam/core/mapping/submap.h"
 
@@ -46,6 +47,12 @@ class LoopCloser {
   /// Adds the next keyframe; number 0 starts a new map. Returns true if keyframes have moved.
   bool Add(std::shared_ptr<const Keyframe> keyframe);
 
+  /// All that it knows; a closer of the same options that loads it goes on like this one.
+  GraphMemory memory() const {
+    return {keyframes_, poses_, constraints_, closures_since_optimization_};
+  }
+  void Load(GraphMemory memory);
+
   /// map_from_base of each keyframe.
   const std::vector<Pose2>& poses() const { return poses_; }
   const std::vector<GraphConstraint>& constraints() const { return constraints_; }
@@ -60,6 +67,8 @@ class LoopCloser {
     int begin = 0;
     int end = 0;
   };
+  void Enter(std::shared_ptr<const Keyframe> keyframe);
+  void Join(const GraphConstraint& constraint);
   void ExtendSubmaps();
   Submap& GetSubmap(int id);
   std::vector<double> WayInGraph(int from) const;

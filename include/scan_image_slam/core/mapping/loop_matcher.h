@@ -39,12 +39,21 @@ struct LoopMatch {
       Eigen::Matrix3d::Zero();  ///< of (forward, left, turn) [1/m^2, 1/m^2, 1/rad^2]
   double agreement = 0.0;       ///< of the points that the submap should know, on its walls [-]
   double overlap = 0.0;         ///< of all points, on the submap's walls [-]
+  double contradiction = 0.0;   ///< of all points, where the submap has seen that nothing is [-]
 };
 
-/// Refines a pose that is known to about a decimetre. Nothing if the query does not fit there.
+/// Refines a pose that is known to about a decimetre, however well the query fits there.
+LoopMatch RefineInSubmap(const LoopQuery& query, const Submap& submap,
+                         const Pose2& submap_from_base, const LoopMatcherOptions& options);
+
+/// The same, but nothing if the query does not fit there.
 std::optional<LoopMatch> TrackInSubmap(const LoopQuery& query, const Submap& submap,
                                        const Pose2& submap_from_base,
                                        const LoopMatcherOptions& options);
+
+/// Share of the points that lie behind walls of the submap, which would have hidden them [-].
+double ShareBehindWalls(const LoopQuery& query, const Submap& submap,
+                        const Pose2& submap_from_base);
 
 /// Finds the pose in a window by branch and bound, and refines it. Nothing if the query fits
 /// nowhere, or in more places than one.

@@ -2,6 +2,8 @@
 
 #include "scan_image_slam/core/fusion/fused_model.h"
 #include "scan_image_slam/core/mapping/keyframe.h"
+#include "scan_image_slam/core/mapping/localizer.h"
+#include "scan_image_slam/core/mapping/map_state.h"
 #include "scan_image_slam/core/mapping/occupancy_grid.h"
 #include "scan_image_slam/core/matching/matched_motion.h"
 
@@ -25,16 +27,24 @@ struct MapperOptions {
   void Validate() const;
 };
 
+/// What a map that was loaded is for.
+enum class MapUse {
+  kContinue,  ///< it grows once the robot has been found in it
+  kLocalize,  ///< it stays as it is
+};
+
 /// Where the robot is, as known at one moment.
 struct MapPose {
   Stamp stamp = 0;
+  bool lost = false;  ///< not found in the loaded map yet, or not any more: the pose is none
   Pose2 map_from_base;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (forward, left, turn) [m, m, rad]
   std::optional<Pose2> map_from_odom;                    ///< if there are encoders
 };
 
 /// The third stage of the system: chains the matches into the pose, chooses keyframes and draws the
-/// map. Places that are recognised (LoopCloser) come in by Correct.
+/// map. Places that are recognised (LoopCloser) come in by Correct; where the robot is in a map
+/// that was loaded (Localizer) comes in by Locate.
 class Mapper {
  public:
   explicit Mapper(const MapperOptions& options);
@@ -52,8 +62,23 @@ class Mapper {
   /// Returns the scan as a keyframe if it became one, else null.
   std::shared_ptr<const Keyframe> AddModel(const FusedModel& model, const MatchedMotion& match);
 
+  /// The scan of a match to look for the robot by, now and then, while the map does not grow: then
+  /// AddModel does nothing.
+  std::optional<Sighting> Look(const FusedModel& model, const MatchedMotion& match);
+
   /// Moves the first keyframes to these poses, map_from_base, and what came later with the last.
   void Correct(const std::vector<Pose2>& keyframe_poses);
+
+  /// The map as it is now, but for its graph, which is the back-end's.
+  MapState State() const;
+
+  /// Takes up a map instead of the present one. The robot is lost until Locate or SetPose, unless
+  /// the map is empty or the chain of matches goes on that was followed when it was saved. Throws
+  /// std::invalid_argument if it is empty and to localise in.
+  void Load(const MapState& state, MapUse use);
+
+  /// The robot was found in the map, or lost. What was seen before the last SetPose is ignored.
+  void Locate(const Location& location);
 
   /// Sets where the robot is now in the map, e.g. because the user has said so; before the first
   /// match, where the first pose will be.
@@ -66,33 +91,34 @@ class Mapper {
   /// Returns true if none is left.
   bool Redraw(int max_scans);
 
-  /// Poses of all scans so far, as known now.
+  /// Poses of all scans since the start or Load, as known now, but those of a lost robot.
   std::vector<MapPose> Trajectory() const;
 
-  /// Starts over with an empty map.
-  void Reset() { *this = Mapper(options_); }
+  /// What the map is drawn from.
+  const std::vector<DrawnScan>& drawn() const { return drawn_; }
+
+  bool lost() const { return lost_; }
+  /// False while a loaded map stays as it is.
+  bool growing() const { return !lost_ && !localize_; }
+
+  /// Starts over with an empty map; in a map to localise in, with a lost robot.
+  void Reset();
 
  private:
-  /// A pose that hangs on a keyframe; those before the first hang on the map's frame (-1).
-  struct Attached {
-    int keyframe = -1;
-    Pose2 keyframe_from_base;
-  };
   struct TrackedPose {
     Stamp stamp = 0;
-    Attached pose;
-  };
-  struct DrawnScan {
-    GridScan scan;
-    Attached pose;
-    Pose2 map_from_base;  ///< where it was drawn
+    AttachedPose pose;
   };
   void BeginChain(const MatchedMotion& match);
+  void Forget();
   bool WorthDrawing(const MatchedMotion& match, const Pose2& map_from_base) const;
   bool WorthKeeping(const MatchedMotion& match) const;
+  bool WorthLooking(const MatchedMotion& match) const;
+  bool IsFar(const Pose2& motion) const;
+  void MoveRobot(const Pose2& new_from_old);
   std::shared_ptr<const Keyframe> Keep(const FusedModel& model, const MatchedMotion& match);
-  Attached Attach(const Pose2& map_from_base) const;
-  Pose2 MapFromBase(const Attached& pose) const;
+  AttachedPose Attach(const Pose2& map_from_base) const;
+  Pose2 MapFromBase(const AttachedPose& pose) const;
 
   MapperOptions options_;
   OccupancyGrid grid_;
@@ -112,6 +138,15 @@ class Mapper {
   std::vector<TrackedPose> tracked_;
   std::vector<DrawnScan> drawn_;
   std::size_t to_redraw_ = 0;  ///< the scans before this one may lie where they were
+
+  KnownChain loaded_chain_;
+  bool localize_ = false;              ///< the map stays as it is
+  bool lost_ = false;                  ///< nobody knows where the robot is in the map
+  std::optional<Stamp> told_stamp_;    ///< of the last scan before SetPose
+  std::optional<Stamp> looked_stamp_;  ///< of the last sighting
+  Stamp looked_start_stamp_ = 0;       ///< of its chain
+  Pose2 start_from_looked_;
+  double looked_way_ = 0.0;  ///< driven between sightings [m]
 };
 
 }  // namespace scan_image_slam

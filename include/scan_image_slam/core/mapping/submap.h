@@ -19,13 +19,13 @@ struct SubmapOptions {
   ScorePyramidOptions pyramid;
 };
 
-/// What successive keyframes saw, put together in the frame of the first: what later
-/// keyframes are matched with to recognise the place.
+/// What some keyframes saw, put together: what later keyframes are matched with to recognise the
+/// place.
 class Submap {
  public:
-  /// `keyframes` follow each other without a break; not empty.
+  /// `keyframes`, not empty, where they lie in the frame of the submap.
   Submap(const std::vector<std::shared_ptr<const Keyframe>>& keyframes,
-         const SubmapOptions& options);
+         std::vector<Pose2> submap_from_keyframes, const SubmapOptions& options);
 
   /// Poses of the keyframes in the frame of the submap.
   const std::vector<Pose2>& submap_from_keyframes() const { return submap_from_keyframes_; }
@@ -45,5 +45,8 @@ class Submap {
   ScorePyramidOptions pyramid_options_;
   std::optional<ScorePyramid> pyramid_;
 };
+
+/// Poses of keyframes that follow each other without a break, in the frame of the first.
+std::vector<Pose2> ChainOf(const std::vector<std::shared_ptr<const Keyframe>>& keyframes);
 
 }  // namespace scan_image_slam

@@ -2,7 +2,7 @@
 
 #include "scan_image_slam/core/config/slam_parameters.h"
 #include "scan_image_slam/core/fusion/scan_image_fusion.h"
-#include "scan_image_slam/core/mapping/loop_closer.h"
+#include "scan_image_slam/core/mapping/back_end.h"
 #include "scan_image_slam/core/mapping/mapper.h"
 #include "scan_image_slam/core/matching/bounded_icp.h"
 #include "scan_image_slam/core/sensor/odometry_gate.h"
@@ -31,7 +31,12 @@ class SlamPipeline {
 
   ScanImageFusion& fusion() { return fusion_; }
   Mapper& mapper() { return mapper_; }
-  const LoopCloser& loop_closer() const { return loop_closer_; }
+  const LoopCloser& loop_closer() const { return back_end_.loop_closer(); }
+
+  /// Takes up a map that was saved; see Mapper::Load.
+  void Load(const MapState& state, MapUse use);
+  /// The map as it is now, to be saved.
+  MapState Save() const;
 
   /// Inputs, in the order of their arrival at times `now` [ns].
   void AddOdometry(Stamp stamp, const Pose2& odom_from_base, Stamp now);
@@ -53,7 +58,7 @@ class SlamPipeline {
   ScanImageFusion fusion_;
   BoundedIcp bounded_icp_;
   Mapper mapper_;
-  LoopCloser loop_closer_;
+  BackEnd back_end_;
   OdometryGate<LaserScan> gate_;
   std::optional<Stamp> last_scan_stamp_;
   int stale_ = 0;

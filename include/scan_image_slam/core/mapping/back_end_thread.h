@@ -1,0 +1,76 @@
+#pragma once
+
+#include "scan_image_slam/core/mapping/back_end.h"
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace scan_image_slam {
+
+/// What the back-end knows after its last optimisation.
+struct GraphState {
+  std::vector<Pose2> poses;                   ///< map_from_base of the first keyframes
+  std::vector<std::pair<int, int>> closures;  ///< keyframes that see the same place
+};
+
+/// What the back-end has found out; the latest of each.
+struct BackEndNews {
+  std::optional<GraphState> graph;  ///< keyframes have moved
+  std::optional<Location> location;
+};
+
+/// A BackEnd in a thread of its own, so that no scan waits for it. Work is done in the order in
+/// which it is given.
+class BackEndThread {
+ public:
+  explicit BackEndThread(const LoopCloserOptions& options, const LocalizerOptions& localizer = {});
+  ~BackEndThread();
+  BackEndThread(const BackEndThread&) = delete;
+  BackEndThread& operator=(const BackEndThread&) = delete;
+
+  /// See LoopCloser::SetOptions.
+  void SetOptions(const LoopCloserOptions& options);
+
+  /// Gives a keyframe. Number 0 starts a new map: what was found before is not told any more.
+  void Add(std::shared_ptr<const Keyframe> keyframe);
+
+  void Look(Sighting sighting);
+
+  /// Starts with another map, as number 0 does.
+  void Load(GraphMemory graph);
+
+  /// Writes a state, its graph being that of all keyframes given so far. The future holds the
+  /// exception of WriteState if the file can't be written.
+  std::future<void> Save(MapState state, std::string path);
+
+  /// What was found since the last call.
+  BackEndNews Take();
+
+  /// Keyframes, sightings and files that wait.
+  int waiting() const;
+
+ private:
+  using Job = std::function<BackEndNews(BackEnd&)>;
+  void Post(Job job, bool new_map);
+  void Run();
+
+  BackEnd back_end_;  ///< of the thread alone
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::pair<Job, int>> jobs_;  ///< each with the number of its map
+  BackEndNews news_;
+  int map_number_ = 0;
+  bool stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace scan_image_slam

@@ -1,0 +1,126 @@
+#include "scan_image_slam/core/mapping/back_end_thread.h"
+
+#include "scan_image_slam/core/mapping/state_file.h"
+
+namespace scan_image_slam {
+namespace {
+
+GraphState StateOf(const LoopCloser& closer) {
+  GraphState state;
+  state.poses = closer.poses();
+  for (const GraphConstraint& constraint : closer.constraints()) {
+    if (constraint.from + 1 != constraint.to) {
+      state.closures.emplace_back(constraint.from, constraint.to);
+    }
+  }
+  return state;
+}
+
+}  // namespace
+
+BackEndThread::BackEndThread(const LoopCloserOptions& options, const LocalizerOptions& localizer)
+    : back_end_(options, localizer), thread_([this] { Run(); }) {}
+
+BackEndThread::~BackEndThread() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void BackEndThread::SetOptions(const LoopCloserOptions& options) {
+  Post(
+      [options](BackEnd& back_end) {
+        back_end.SetOptions(options);
+        return BackEndNews();
+      },
+      false);
+}
+
+void BackEndThread::Add(std::shared_ptr<const Keyframe> keyframe) {
+  const bool new_map = keyframe->id == 0;
+  Post(
+      [keyframe = std::move(keyframe)](BackEnd& back_end) {
+        BackEndNews news;
+        if (back_end.Add(keyframe)) news.graph = StateOf(back_end.loop_closer());
+        return news;
+      },
+      new_map);
+}
+
+void BackEndThread::Look(Sighting sighting) {
+  Post(
+      [sighting = std::move(sighting)](BackEnd& back_end) {
+        return BackEndNews{std::nullopt, back_end.Look(sighting)};
+      },
+      false);
+}
+
+void BackEndThread::Load(GraphMemory graph) {
+  Post(
+      [graph = std::move(graph)](BackEnd& back_end) {
+        back_end.Load(graph);
+        return BackEndNews{StateOf(back_end.loop_closer()), std::nullopt};
+      },
+      true);
+}
+
+std::future<void> BackEndThread::Save(MapState state, std::string path) {
+  auto written = std::make_shared<std::promise<void>>();  // shared, as jobs can be copied
+  std::future<void> future = written->get_future();
+  Post(
+      [state = std::move(state), path = std::move(path), written](BackEnd& back_end) mutable {
+        try {
+          state.graph = back_end.loop_closer().memory();
+          WriteState(state, path);
+          written->set_value();
+        } catch (...) {
+          written->set_exception(std::current_exception());
+        }
+        return BackEndNews();
+      },
+      false);
+  return future;
+}
+
+void BackEndThread::Post(Job job, bool new_map) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (new_map) {
+      ++map_number_;
+      news_ = BackEndNews();
+    }
+    jobs_.emplace_back(std::move(job), map_number_);
+  }
+  changed_.notify_one();
+}
+
+BackEndNews BackEndThread::Take() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(news_, BackEndNews());
+}
+
+int BackEndThread::waiting() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return static_cast<int>(jobs_.size());
+}
+
+void BackEndThread::Run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stop_ || !jobs_.empty(); });
+    if (stop_) return;
+    const auto [job, map_number] = std::move(jobs_.front());
+    jobs_.pop_front();
+    lock.unlock();
+    BackEndNews found = job(back_end_);
+    lock.lock();
+    if (map_number != map_number_) continue;
+    if (found.graph) news_.graph = std::move(found.graph);
+    if (found.location) news_.location = std::move(found.location);
+  }
+}
+
+}  // namespace scan_image_slam

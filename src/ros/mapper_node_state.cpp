@@ -1,0 +1,103 @@
+// The part of MapperNode that saves and loads its map.
+
+#include "scan_image_slam/core/mapping/state_file.h"
+#include "scan_image_slam/ros/map_files.h"
+#include "scan_image_slam/ros/mapper_node.h"
+
+#include <chrono>
+#include <filesystem>
+
+#include <ros/console.h>
+
+namespace scan_image_slam {
+
+/// A map that was begun elsewhere, and where to keep it.
+void MapperNode::StartWithStateFile() {
+  MapperNodeOptions& options = options_.node;
+  if (options.state_file.empty()) {
+    for (const auto& [needs, name] :
+         {std::make_pair(options.localization, "localization"),
+          std::make_pair(options.autosave_period > 0.0, "autosave_period")}) {
+      if (needs) throw ParameterError(std::string("mapper/") + name + ": needs mapper/state_file");
+    }
+    return;
+  }
+  options.state_file = PathFrom(options.map_folder, options.state_file);
+  if (options.localization || std::filesystem::exists(options.state_file)) {
+    Load(ReadState(options.state_file), options.state_file);
+    changed_ = false;
+  } else {
+    ROS_WARN_STREAM("there is no " << options.state_file << ": the map begins empty");
+  }
+  if (options.localization || options.autosave_period <= 0.0) return;
+  autosave_timer_ =
+      ros::NodeHandle().createWallTimer(ros::WallDuration(options.autosave_period),
+                                        [this](const ros::WallTimerEvent&) { Autosave(); });
+}
+
+void MapperNode::Load(const MapState& state, const std::string& path) {
+  mapper_.Load(state, options_.node.localization ? MapUse::kLocalize : MapUse::kContinue);
+  back_end_.Load(state.graph);
+  StartOver();
+  changed_ = true;
+  ROS_INFO_STREAM(path << ": " << state.graph.keyframes.size() << " keyframes, "
+                       << state.drawn.size() << " scans");
+}
+
+/// Writes in the back-end's thread. A file that could not be written is told, and tried again.
+void MapperNode::Autosave() {
+  constexpr std::chrono::seconds kNow(0);
+  if (autosaved_.valid() && autosaved_.wait_for(kNow) != std::future_status::ready) return;
+  FinishAutosave();
+  if (!changed_ || !mapper_.growing()) return;
+  changed_ = false;
+  autosaved_ = back_end_.Save(mapper_.State(), options_.node.state_file);
+}
+
+/// Waits for a file that is being written.
+void MapperNode::FinishAutosave() {
+  if (!autosaved_.valid()) return;
+  try {
+    autosaved_.get();
+    watch_.SetProblem("autosave", "");
+  } catch (const std::exception& error) {
+    changed_ = true;
+    watch_.SetProblem("autosave", error.what());
+    ROS_ERROR_STREAM("autosave: " << error.what());
+  }
+}
+
+MapperNode::~MapperNode() {
+  if (options_.node.localization || options_.node.autosave_period <= 0.0) return;
+  FinishAutosave();
+  Autosave();
+  FinishAutosave();
+}
+
+bool MapperNode::SaveState(StateFileRequest& request, StateFileResponse& response) {
+  try {
+    response.path = PathInside(options_.node.map_folder, request.path);
+    back_end_.Save(mapper_.State(), response.path).get();
+    response.success = true;
+  } catch (const std::exception& error) {
+    response.message = error.what();
+    ROS_ERROR_STREAM("save_state: " << error.what());
+  }
+  return true;
+}
+
+bool MapperNode::LoadState(StateFileRequest& request, StateFileResponse& response) {
+  try {
+    response.path = PathFrom(options_.node.map_folder, request.path);
+    MapState state = ReadState(response.path);
+    state.chain = KnownChain();  // who loads another map has a reason to look for the robot
+    Load(state, response.path);
+    response.success = true;
+  } catch (const std::exception& error) {
+    response.message = error.what();
+    ROS_ERROR_STREAM("load_state: " << error.what());
+  }
+  return true;
+}
+
+}  // namespace scan_image_slam

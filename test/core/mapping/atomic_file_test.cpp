@@ -1,0 +1,107 @@
+#include "scan_image_slam/core/mapping/atomic_file.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+namespace scan_image_slam {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFile : public ::testing::Test {
+ protected:
+  AtomicFile() {
+    char name[] = "/tmp/atomic_file_test.XXXXXX";
+    folder_ = mkdtemp(name);
+  }
+  ~AtomicFile() override { fs::remove_all(folder_); }
+
+  std::string Error(const std::string& path, const std::string& content) const {
+    try {
+      ReplaceFile(path, content);
+      return "";
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  }
+  int Files() const {
+    return static_cast<int>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  std::string folder_;
+};
+
+/// As if the disk were full: no file may grow beyond `bytes`.
+class SmallFilesOnly {
+ public:
+  explicit SmallFilesOnly(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallFilesOnly() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SmallFilesOnly(const SmallFilesOnly&) = delete;
+  SmallFilesOnly& operator=(const SmallFilesOnly&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST_F(AtomicFile, ReplacesTheContentAndLeavesNothingBeside) {
+  const std::string path = folder_ + "/state";
+  ReplaceFile(path, std::string("old\0\n", 5));
+  EXPECT_EQ(ReadWholeFile(path), std::string("old\0\n", 5));
+  ReplaceFile(path, "new");
+  EXPECT_EQ(ReadWholeFile(path), "new");
+  EXPECT_EQ(Files(), 1);
+}
+
+TEST_F(AtomicFile, MakesTheFolder) {
+  ReplaceFile(folder_ + "/a/b/state", "x");
+  EXPECT_EQ(ReadWholeFile(folder_ + "/a/b/state"), "x");
+}
+
+TEST_F(AtomicFile, ThatCannotBeWrittenWholeLeavesTheOldOne) {
+  const std::string path = folder_ + "/state";
+  ReplaceFile(path, "old");
+  std::string error;
+  {
+    const SmallFilesOnly full(1000);
+    error = Error(path, std::string(5000, 'n'));
+  }
+  EXPECT_NE(error.find("can't write " + path), std::string::npos) << error;
+  EXPECT_EQ(ReadWholeFile(path), "old");
+  EXPECT_EQ(Files(), 1);
+}
+
+TEST_F(AtomicFile, NamesWhatIsInTheWay) {
+  fs::create_directories(folder_ + "/state");
+  EXPECT_NE(Error(folder_ + "/state", "x").find(folder_ + "/state"), std::string::npos);
+  EXPECT_EQ(Files(), 1);
+  ReplaceFile(folder_ + "/file", "x");
+  EXPECT_NE(Error(folder_ + "/file/state", "x").find(folder_ + "/file"), std::string::npos);
+}
+
+TEST_F(AtomicFile, ReadingNamesTheFile) {
+  for (const std::string& path : {folder_ + "/none", folder_}) {
+    try {
+      ReadWholeFile(path);
+      ADD_FAILURE();
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(path), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace scan_image_slam

@@ -1,0 +1,51 @@
+#include "scan_image_slam/core/mapping/back_end_thread.h"
+
+#include "loop_fixtures.h"
+
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace scan_image_slam {
+namespace {
+
+TEST(BackEndThread, FindsWhatTheCloserFinds) {
+  const DriftingDrive drive = Drive(RingOfCorridors(), TwiceAroundTheRing(), {1.005, 0.0005});
+  LoopCloser closer{LoopCloserOptions()};
+  for (const auto& keyframe : drive.keyframes) closer.Add(keyframe);
+  const std::vector<Pose2> expected = closer.poses();
+  BackEndThread thread{LoopCloserOptions()};
+  for (const auto& keyframe : drive.keyframes) thread.Add(keyframe);
+  std::vector<Pose2> found;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+  while (found.size() < expected.size() && std::chrono::steady_clock::now() < deadline) {
+    if (const auto graph = thread.Take().graph) found = graph->poses;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_EQ(found.size(), expected.size());
+  EXPECT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(Pose2)), 0);
+}
+
+TEST(BackEndThread, EndsWhileKeyframesWait) {
+  const DriftingDrive drive = Drive(RingOfCorridors(), TwiceAroundTheRing(), {1.005, 0.0005});
+  BackEndThread thread{LoopCloserOptions()};
+  for (const auto& keyframe : drive.keyframes) thread.Add(keyframe);
+}
+
+TEST(BackEndThread, ANewMapDropsWhatWasFoundInTheOld) {
+  const DriftingDrive drive = Drive(RingOfCorridors(), TwiceAroundTheRing(), {1.005, 0.0005});
+  BackEndThread thread{LoopCloserOptions()};
+  for (const auto& keyframe : drive.keyframes) thread.Add(keyframe);
+  thread.Add(drive.keyframes.front());
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+  while (thread.waiting() > 0 && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(thread.waiting(), 0);
+  EXPECT_FALSE(thread.Take().graph.has_value());
+}
+
+}  // namespace
+}  // namespace scan_image_slam

@@ -1,0 +1,296 @@
+#!/usr/bin/env python3
+"""The node mapper: maps that are saved, loaded, localised in, and saved by itself."""
+
+import math
+import os
+import shutil
+import signal
+import subprocess
+import unittest
+from xmlrpc.client import ServerProxy
+
+import numpy
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Pose2D, PoseWithCovarianceStamped
+from live_support import (START, Console, Recorder, angle_difference, compose, program, publisher,
+                          stamp_of, wait_for, yaw_of, yaw_quaternion)
+from nav_msgs.srv import GetMap
+from scan_image_slam.msg import IcpModel, ScanMatch
+from scan_image_slam.srv import StateFile
+from std_srvs.srv import Trigger
+
+PERIOD = 0.1  # [s]
+BEAMS = 720
+# A room that is another one when it is turned by any angle.
+CORNERS = numpy.array([(-4, -3), (4, -3), (4, 0), (1, 0), (1, 3), (-2, 3), (-4, 1)], float)
+FIRST = (-3.0, -2.0, 0.0)  # where the first drive begins, in the room
+
+
+def inverse(pose):
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    return (-c * pose[0] - s * pose[1], s * pose[0] - c * pose[1], -pose[2])
+
+
+def model_of(seconds, pose, scale=1.0):
+    """What scan_image_fusion makes of a scan from `pose` in the room, or in one of another scale."""
+    bearings = -math.pi + 2 * math.pi / BEAMS * numpy.arange(BEAMS)
+    rays = numpy.stack([numpy.cos(pose[2] + bearings), numpy.sin(pose[2] + bearings)], 1)
+    ranges = numpy.full(BEAMS, numpy.inf)
+    for a, b in zip(CORNERS, numpy.roll(CORNERS, -1, axis=0)):
+        along, start = b - a, a - numpy.array(pose[:2])
+        determinant = rays[:, 0] * along[1] - rays[:, 1] * along[0]
+        with numpy.errstate(divide='ignore', invalid='ignore'):
+            distance = (start[0] * along[1] - start[1] * along[0]) / determinant
+            share = (start[0] * rays[:, 1] - start[1] * rays[:, 0]) / determinant
+        hit = (distance > 0) & (share >= 0) & (share <= 1)
+        ranges = numpy.where(hit, numpy.minimum(ranges, scale * distance), ranges)
+    model = IcpModel()
+    model.header.stamp = stamp_of(seconds)
+    model.header.frame_id = 'base_link'
+    model.bearings = bearings.tolist()
+    model.ranges = ranges.tolist()
+    model.points_x = (ranges * numpy.cos(bearings)).tolist()
+    model.points_y = (ranges * numpy.sin(bearings)).tolist()
+    model.time_offsets = model.edge_weights = [0.0] * BEAMS
+    model.edge_signs = [0] * BEAMS
+    return model
+
+
+class Robot:
+    """Feeds one mapper with drives through the room."""
+
+    def __init__(self, space):
+        self.space = space
+        self.model = publisher(space + 'icp_model', IcpModel)
+        self.match = publisher(space + 'scan_match', ScanMatch)
+        self.initial_pose = publisher(space + 'initialpose', PoseWithCovarianceStamped)
+        self.poses = Recorder(space + 'pose', PoseWithCovarianceStamped)
+        self.time = START
+        self.scale = 1.0  # of the room
+
+    def wait_for_mapper(self):
+        wait_for(lambda: self.poses.connected() and self.initial_pose.get_num_connections() > 0 and
+                 min(self.model.get_num_connections(), self.match.get_num_connections()) > 0,
+                 'the mapper of ' + self.space)
+
+    def begin(self, pose):
+        """A new chain of matches, from `pose` in the room."""
+        self.time += 10.0
+        self.start_time, self.start, self.pose = self.time, pose, pose
+
+    def scan(self, motion=(0.0, 0.0, 0.0)):
+        """Drives on and sends what is seen there."""
+        self.pose = compose(self.pose, motion)
+        match = ScanMatch()
+        match.header.stamp = stamp_of(self.time)
+        match.header.frame_id = 'base_link'
+        match.start_stamp = match.reference_stamp = stamp_of(self.start_time)
+        match.motion = Pose2D(*compose(inverse(self.start), self.pose))
+        match.covariance = [1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-6]
+        match.status = ScanMatch.STATUS_MATCHED
+        self.model.publish(model_of(self.time, self.pose, self.scale))
+        self.match.publish(match)
+        self.time += PERIOD
+
+    def drive(self, count, motion=(0.1, 0.0, 0.0)):
+        for _ in range(count):
+            self.scan(motion)
+            self.poses.at(self.time - PERIOD)
+
+    def map_whole_room(self):
+        self.begin(FIRST)
+        self.drive(1, (0.0, 0.0, 0.0))
+        self.drive(50)
+        self.drive(16, (0.05, 0.0, math.pi / 16))
+        self.drive(20)
+
+    def find(self):
+        """Stands and looks until there is a pose; gives it."""
+        heard = len(self.poses.messages)
+
+        def found():
+            self.scan()
+            return self.poses.messages[heard:]
+        return wait_for(found, 'the robot to be found')[-1]
+
+    def expected(self):
+        """Where the robot is in the map, which began at FIRST."""
+        return compose(inverse(FIRST), self.pose)
+
+
+class MapperStateTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('mapper_state_test')
+        cls.console = Console()
+        cls.folder = rospy.get_param('mapper/map_folder')
+        cls.saving_folder = rospy.get_param('saving/mapper/map_folder')
+        cls.robot = Robot('')
+        cls.robot.wait_for_mapper()
+        for name in ('dynamic_map', 'reset', 'save_state', 'load_state'):
+            rospy.wait_for_service(name, 60)
+        cls.get_map = rospy.ServiceProxy('dynamic_map', GetMap)
+        cls.reset = rospy.ServiceProxy('reset', Trigger)
+        cls.save = rospy.ServiceProxy('save_state', StateFile)
+        cls.load = rospy.ServiceProxy('load_state', StateFile)
+
+    @classmethod
+    def tearDownClass(cls):
+        for folder in (cls.folder, cls.saving_folder):
+            shutil.rmtree(folder, ignore_errors=True)
+
+    def mapped_and_saved(self, name):
+        """A new map, saved; gives path and map."""
+        self.assertTrue(self.reset().success)
+        self.robot.map_whole_room()
+        reply = self.save(name)
+        self.assertTrue(reply.success, reply.message)
+        return reply.path, self.get_map().map
+
+    def expect_at(self, message, expected):
+        pose = message.pose.pose
+        self.assertLess(math.hypot(pose.position.x - expected[0], pose.position.y - expected[1]),
+                        0.05)
+        self.assertLess(abs(angle_difference(yaw_of(pose.orientation), expected[2])), 0.02)
+
+    def known(self, grid):
+        """{(x, y): value} of the known cells, whatever the size of the grid."""
+        data = numpy.array(grid.data, numpy.int8).reshape(grid.info.height, grid.info.width)
+        origin = [round(v / grid.info.resolution)
+                  for v in (grid.info.origin.position.x, grid.info.origin.position.y)]
+        return {(x + origin[0], y + origin[1]): data[y, x] for y, x in numpy.argwhere(data >= 0)}
+
+    def test_a_saved_map_is_taken_up_and_goes_on(self):
+        path, saved = self.mapped_and_saved('room.state')
+        self.assertEqual(path, os.path.join(self.folder, 'room.state'))
+        self.assertEqual(os.listdir(self.folder).count('room.state'), 1)
+        self.assertFalse([f for f in os.listdir(self.folder) if f.startswith('room.state.')])
+        self.assertTrue(self.reset().success)
+        reply = self.load('room.state')
+        self.assertTrue(reply.success, reply.message)
+        self.assertEqual(reply.path, path)
+        self.assertEqual(self.known(self.get_map().map), self.known(saved))
+        # Nobody has told where the robot is: it looks around.
+        self.robot.begin((-1.0, 0.5, 2.0))
+        self.expect_at(self.robot.find(), self.robot.expected())
+        self.robot.drive(8)
+        self.expect_at(self.robot.poses.at(self.robot.time - PERIOD), self.robot.expected())
+        self.console.said('was found in the loaded map', node='/mapper')
+
+    def test_a_robot_is_told_where_it_is(self):
+        self.mapped_and_saved('told.state')
+        self.assertTrue(self.load('told.state').success)
+        told = PoseWithCovarianceStamped()
+        told.header.frame_id = 'map'
+        self.robot.begin((-2.0, -1.0, 0.5))
+        expected = self.robot.expected()
+        told.pose.pose.position.x, told.pose.pose.position.y = expected[:2]
+        yaw_quaternion(told.pose.pose.orientation, expected[2])
+        heard = len(self.console.messages)
+        self.robot.initial_pose.publish(told)
+        self.console.said('the pose was set by', after=heard)
+        self.robot.drive(1)
+        self.expect_at(self.robot.poses.at(self.robot.time - PERIOD), expected)
+
+    def test_files_that_cannot_be_used_leave_everything_as_it_is(self):
+        path, saved = self.mapped_and_saved('good.state')
+        with open(path, 'rb') as file:
+            content = file.read()
+        cases = {'cut': (content[:-7], 'bytes too early'),
+                 'damaged': (content[:300] + bytes([content[300] ^ 4]) + content[301:], 'damaged'),
+                 'newer': (content[:8] + b'\x63' + content[9:], 'version is 99'),
+                 'foreign': (b'P5\n1 1\n255\n.', 'no state of a map')}
+        for name, (bad, reason) in cases.items():
+            with self.subTest(name):
+                with open(os.path.join(self.folder, name), 'wb') as file:
+                    file.write(bad)
+                reply = self.load(name)
+                self.assertFalse(reply.success)
+                self.assertIn(reason, reply.message)
+                self.assertIn(os.path.join(self.folder, name), reply.message)
+                self.assertIn('byte', reply.message)
+        self.assertFalse(self.load('none').success)
+        self.assertFalse(self.load('').success)
+        self.assertFalse(self.save('../outside.state').success)
+        self.assertFalse(os.path.exists(os.path.join(self.folder, '..', 'outside.state')))
+        self.robot.drive(3)  # there are poses as before, in the same map
+        self.expect_at(self.robot.poses.at(self.robot.time - PERIOD), self.robot.expected())
+        now = self.known(self.get_map().map)
+        self.assertLessEqual(set(self.known(saved)), set(now))
+
+    def test_localization_leaves_the_map_alone_and_finds_a_robot_that_was_carried_away(self):
+        path, saved = self.mapped_and_saved('localization.state')
+        space = '/localization'
+        process = subprocess.Popen(
+            [program('mapper'), '__ns:=' + space, '_localization:=true', '_state_file:=' + path,
+             '_map_folder:=' + self.folder], stdout=subprocess.DEVNULL)
+        try:
+            robot = Robot(space + '/')
+            robot.wait_for_mapper()
+            diagnostics = Recorder('/diagnostics', DiagnosticArray)
+            robot.begin((-1.0, -1.0, -0.7))
+            self.expect_at(robot.find(), robot.expected())
+            robot.drive(6)
+            self.expect_at(robot.poses.at(robot.time - PERIOD), robot.expected())
+            # Lifted and put down in a room that is not in the map; the matching does not notice.
+            robot.scale = 3.0
+
+            def is_lost():
+                robot.scan()
+                return any('localization' in status.name and 'has not been found' in status.message
+                           for message in diagnostics.messages for status in message.status)
+            wait_for(is_lost, 'the diagnostics to say that the robot is lost')
+            self.console.said('is not where it was thought to be', node=space + '/mapper')
+            heard = len(robot.poses.messages)
+            for _ in range(30):
+                robot.scan()
+            # Carried back, to another place in the first room.
+            robot.scale = 1.0
+            robot.begin((-2.5, 0.5, 1.9))
+            first = robot.find()
+            self.assertEqual(robot.poses.messages.index(first), heard, 'none from the other room')
+            self.expect_at(first, robot.expected())
+            get_map = rospy.ServiceProxy(space + '/dynamic_map', GetMap)
+            self.assertEqual(self.known(get_map().map), self.known(saved))
+            again = rospy.ServiceProxy(space + '/save_state', StateFile)(path + '.after')
+            self.assertTrue(again.success, again.message)
+            with open(path, 'rb') as before, open(again.path, 'rb') as after:
+                self.assertEqual(before.read(), after.read())
+        finally:
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(30), 0)
+
+    def test_a_mapper_that_dies_goes_on_with_what_it_saved(self):
+        robot = Robot('/saving/')
+        robot.wait_for_mapper()
+        robot.map_whole_room()
+        path = os.path.join(self.saving_folder, 'auto.state')
+        load = rospy.ServiceProxy('load_state', StateFile)
+
+        def all_saved():
+            """What was saved last is what is there, seen through another mapper."""
+            mine = rospy.ServiceProxy('/saving/dynamic_map', GetMap)().map
+            return (os.path.exists(path) and load(path).success and
+                    self.known(self.get_map().map) == self.known(mine))
+        wait_for(all_saved, 'the map to be saved')
+        node = ServerProxy(rospy.get_master().lookupNode('/saving/mapper')[2])
+        pid = node.getPid('/test')[2]
+        os.kill(pid, signal.SIGKILL)
+
+        def is_back():
+            try:
+                uri = rospy.get_master().lookupNode('/saving/mapper')[2]
+                return ServerProxy(uri).getPid('/test')[2] != pid
+            except OSError:
+                return False
+        wait_for(is_back, 'the mapper to be started again')
+        robot.wait_for_mapper()
+        # The robot has gone on meanwhile, and so has the chain of its matches.
+        robot.pose = compose(robot.pose, (0.3, 0.0, 0.4))
+        self.expect_at(robot.find(), robot.expected())
+
+
+if __name__ == '__main__':
+    rostest.rosrun('scan_image_slam', 'mapper_state', MapperStateTest)
