@@ -119,7 +119,7 @@ void BackEndThread::Run() {
     lock.lock();
     if (map_number != map_number_) continue;
     if (found.graph) news_.graph = std::move(found.graph);
-    if (found.location) news_.location = std::move(found.location);
+    if (found.location) news_.location = found.location;
   }
 }
 

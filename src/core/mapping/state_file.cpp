@@ -28,14 +28,18 @@ std::uint32_t CheckSum(const std::string& bytes, std::size_t begin) {
 // Each thing that is kept has a Put and a Get that name the same fields in the same order, and the
 // least bytes that it takes.
 
-constexpr std::size_t kPoseBytes = 3 * 8;
-constexpr std::size_t kMatrixBytes = 9 * 8;
-constexpr std::size_t kPointBytes = 5 * 4;
-constexpr std::size_t kEdgeBytes = 9 * 8 + 4;
-constexpr std::size_t kKeyframeBytes = 8 + 8 + 1 + kPoseBytes + kMatrixBytes + 2 * 8 + 4 + 4;
-constexpr std::size_t kConstraintBytes = 4 + 4 + kPoseBytes + kMatrixBytes + 1;
-constexpr std::size_t kBeamBytes = 2 * 4 + 1;
-constexpr std::size_t kDrawnBytes = 2 * 8 + 4 + 2 * kPoseBytes + 4;
+constexpr std::size_t kDouble = 8;  // also a stamp
+constexpr std::size_t kFloat = 4;   // also an index or a count
+constexpr std::size_t kFlag = 1;
+constexpr std::size_t kPoseBytes = 3 * kDouble;
+constexpr std::size_t kMatrixBytes = 9 * kDouble;
+constexpr std::size_t kPointBytes = 5 * kFloat;
+constexpr std::size_t kEdgeBytes = 9 * kDouble + kFloat;
+constexpr std::size_t kKeyframeBytes =
+    2 * kDouble + kFlag + kPoseBytes + kMatrixBytes + 2 * kDouble + 2 * kFloat;
+constexpr std::size_t kConstraintBytes = 2 * kFloat + kPoseBytes + kMatrixBytes + kFlag;
+constexpr std::size_t kBeamBytes = 2 * kFloat + kFlag;
+constexpr std::size_t kDrawnBytes = 2 * kDouble + kFloat + 2 * kPoseBytes + kFloat;
 
 void Put(const Pose2& pose, ByteWriter* out) {
   out->Write(pose.x);

@@ -49,6 +49,7 @@ const ScorePyramid& Submap::pyramid() {
 
 std::vector<Pose2> ChainOf(const std::vector<std::shared_ptr<const Keyframe>>& keyframes) {
   std::vector<Pose2> poses;
+  poses.reserve(keyframes.size());
   for (const auto& keyframe : keyframes) {
     poses.push_back(poses.empty() ? Pose2() : poses.back() * keyframe->previous_from_base);
   }
