@@ -20,12 +20,6 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr char kScanType[] = "sensor_msgs/LaserScan";
-constexpr char kImageType[] = "sensor_msgs/Image";
-constexpr char kCompressedType[] = "sensor_msgs/CompressedImage";
-constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
-constexpr char kOdometryType[] = "nav_msgs/Odometry";
-
 std::string Join(const std::vector<std::string>& words) {
   std::string joined;
   for (const std::string& word : words) joined += (joined.empty() ? "" : ", ") + word;
@@ -128,15 +122,17 @@ void BagInput::ChooseTopics(const BagTopics& topics) {
   if (!topics.use_images) return;
   const std::string raw = Choose("", "/image_raw", kImageType, "--image-topic");
   const std::string compressed =
-      Choose("", "/image_raw/compressed", kCompressedType, "--image-topic");
+      Choose("", "/image_raw/compressed", kCompressedImageType, "--image-topic");
   image_topic_ = raw.empty() ? compressed : raw;
   if (!topics.image.empty()) {
     const std::string wanted = WithSlash(topics.image);
-    const bool is_compressed = type_of_.count(wanted) == 0 || type_of_[wanted] == kCompressedType;
+    const bool is_compressed =
+        type_of_.count(wanted) == 0 || type_of_[wanted] == kCompressedImageType;
     image_topic_ =
         is_compressed && type_of_.count(wanted) == 0
-            ? Choose(wanted + "/compressed", "", kCompressedType, "--image-topic")
-            : Choose(wanted, "", is_compressed ? kCompressedType : kImageType, "--image-topic");
+            ? Choose(wanted + kCompressedEnding, "", kCompressedImageType, "--image-topic")
+            : Choose(wanted, "", is_compressed ? kCompressedImageType : kImageType,
+                     "--image-topic");
   }
   camera_info_topic_ =
       Choose(topics.camera_info, "/camera_info", kCameraInfoType, "--camera-info-topic");

@@ -38,7 +38,6 @@ void Add(const std::string& name, const ParameterValue& value,
 
 /// A bound in the parameter's type. Clients draw no slider to infinity.
 ParameterValue Bound(const Parameter& p, bool upper) {
-  constexpr double kUnlimited = 1e9;
   const double bound = upper ? p.range.max : p.range.min;
   if (p.type == "bool") return upper;
   if (p.type == "string") return std::string();

@@ -5,7 +5,6 @@
 namespace scan_image_slam {
 namespace {
 
-const char kCompressedEnding[] = "/compressed";
 const char kConfig[] = "robot.yaml";  // written where the laser's place is not known
 
 /// For the shell, in quotes only where it must be.
@@ -44,11 +43,6 @@ std::string SourceName(OdometrySource source) {
   return source == OdometrySource::kTf ? "tf" : source == OdometrySource::kNone ? "none" : "auto";
 }
 
-bool HasImages(const BagContents& contents) {
-  return !contents.TopicsOfType("sensor_msgs/Image").empty() ||
-         !contents.TopicsOfType("sensor_msgs/CompressedImage").empty();
-}
-
 std::string Offline(const BagContents& contents, const BagPlan& plan, const std::string& program) {
   const OdometryInput usual;
   Line line(program);
@@ -56,7 +50,7 @@ std::string Offline(const BagContents& contents, const BagPlan& plan, const std:
   line.AddOther("--scan-topic", plan.scan, "/scan");
   if (!plan.odom.empty()) line.AddOther("--odom-topic", plan.odom, "/odom");
   if (plan.image.empty()) {
-    if (HasImages(contents)) line.Add("--no-images");
+    if (!contents.ImageTopics().empty()) line.Add("--no-images");
   } else {
     // Raw images are preferred by themselves.
     const std::string raw = "/image_raw";
@@ -80,7 +74,7 @@ void AddLiveCamera(const BagContents& contents, const BagPlan& plan, Line* line)
     line->Add("use_camera:=false");
     return;
   }
-  if (contents.topics.at(plan.image).type == "sensor_msgs/CompressedImage") {
+  if (contents.topics.at(plan.image).type == kCompressedImageType) {
     line->SetOther("image_topic", plan.image.substr(0, plan.image.rfind('/')), "/image_raw");
   } else {
     line->SetOther("image_topic", plan.image, "/image_raw");

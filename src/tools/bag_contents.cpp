@@ -39,13 +39,13 @@ class ContentsReader {
     decode_ = index % std::max<std::size_t>(1, messages_of_topic / kImagesToDecode) == 0;
     const std::string& type = topic->type;
     try {
-      if (type == "sensor_msgs/LaserScan") return Read<sensor_msgs::LaserScan>(message, topic);
-      if (type == "sensor_msgs/Image") return Read<sensor_msgs::Image>(message, topic);
-      if (type == "sensor_msgs/CompressedImage") {
+      if (type == kScanType) return Read<sensor_msgs::LaserScan>(message, topic);
+      if (type == kImageType) return Read<sensor_msgs::Image>(message, topic);
+      if (type == kCompressedImageType) {
         return Read<sensor_msgs::CompressedImage>(message, topic);
       }
-      if (type == "sensor_msgs/CameraInfo") return Read<sensor_msgs::CameraInfo>(message, topic);
-      if (type == "nav_msgs/Odometry") return Read<nav_msgs::Odometry>(message, topic);
+      if (type == kCameraInfoType) return Read<sensor_msgs::CameraInfo>(message, topic);
+      if (type == kOdometryType) return Read<nav_msgs::Odometry>(message, topic);
       ReadTransforms(message);
     } catch (const std::invalid_argument& error) {
       ++topic->refused[error.what()];
@@ -137,6 +137,13 @@ std::vector<std::string> BagContents::TopicsOfType(const std::string& type) cons
   for (const auto& [name, topic] : topics) {
     if (topic.type == type) names.push_back(name);
   }
+  return names;
+}
+
+std::vector<std::string> BagContents::ImageTopics() const {
+  std::vector<std::string> names = TopicsOfType(kImageType);
+  const std::vector<std::string> compressed = TopicsOfType(kCompressedImageType);
+  names.insert(names.end(), compressed.begin(), compressed.end());
   return names;
 }
 

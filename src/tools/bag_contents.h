@@ -42,6 +42,7 @@ struct BagContents {
   std::unique_ptr<tf2::BufferCore> mounts;  ///< where the frames usually are on each other
 
   std::vector<std::string> TopicsOfType(const std::string& type) const;
+  std::vector<std::string> ImageTopics() const;  ///< raw ones first
 };
 
 /// Reads a whole bag, but decodes only some of its images. `progress` gets the share that is done.

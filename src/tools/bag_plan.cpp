@@ -11,8 +11,6 @@
 namespace scan_image_slam {
 namespace {
 
-const char kCompressedEnding[] = "/compressed";
-
 bool EndsWith(const std::string& text, const std::string& ending) {
   return text.size() >= ending.size() &&
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
@@ -75,7 +73,7 @@ class Planner {
   }
 
   void ChooseScans() {
-    const std::vector<std::string> names = contents_.TopicsOfType("sensor_msgs/LaserScan");
+    const std::vector<std::string> names = contents_.TopicsOfType(kScanType);
     plan_.scan = Choose(wanted_.scan, "/scan", names,
                         [](const RecordedTopic& topic) { return topic.scans.scans(); });
     if (!plan_.scan.empty() && Scans().scans.scans() == 0) plan_.scan.clear();
@@ -90,7 +88,7 @@ class Planner {
   }
 
   void ChooseEncoders() {
-    const std::vector<std::string> names = contents_.TopicsOfType("nav_msgs/Odometry");
+    const std::vector<std::string> names = contents_.TopicsOfType(kOdometryType);
     plan_.odom = Choose(wanted_.odom, "/odom", names,
                         [](const RecordedTopic& topic) { return topic.stamps.usable(); });
     const RecordedTopic* topic = plan_.odom.empty() ? nullptr : &contents_.topics.at(plan_.odom);
@@ -182,16 +180,8 @@ class Planner {
     }
   }
 
-  std::vector<std::string> ImageTopics() const {
-    std::vector<std::string> names = contents_.TopicsOfType("sensor_msgs/Image");
-    for (const std::string& name : contents_.TopicsOfType("sensor_msgs/CompressedImage")) {
-      names.push_back(name);
-    }
-    return names;
-  }
-
   void ChooseCamera() {
-    const std::vector<std::string> names = ImageTopics();
+    const std::vector<std::string> names = contents_.ImageTopics();
     if (names.empty()) {
       Tell(Severity::kNote, "there are no images: laser and encoders only",
            "in corridors the camera tells how far the robot has come");
@@ -218,7 +208,7 @@ class Planner {
   }
 
   void CheckLiveCamera() {
-    const bool compressed = contents_.topics.at(plan_.image).type == "sensor_msgs/CompressedImage";
+    const bool compressed = contents_.topics.at(plan_.image).type == kCompressedImageType;
     plan_.camera_works_live = !compressed || EndsWith(plan_.image, kCompressedEnding);
     if (plan_.camera_works_live) return;
     Tell(Severity::kNote,
@@ -234,7 +224,7 @@ class Planner {
   /// Finds calibration and place of the camera. Says why it can't be used, if so.
   std::optional<Finding> CameraProblem() {
     const RecordedTopic& images = contents_.topics.at(plan_.image);
-    const std::vector<std::string> infos = contents_.TopicsOfType("sensor_msgs/CameraInfo");
+    const std::vector<std::string> infos = contents_.TopicsOfType(kCameraInfoType);
     if (infos.empty()) {
       return Problem("there is no calibration (no topic of type sensor_msgs/CameraInfo)",
                      "record camera_info beside the images");

@@ -12,7 +12,6 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr double kDegrees = 180.0 / M_PI;
 const char kIndent[] = "\n               ";
 
 std::string DateText(const ros::Time& time) {
@@ -54,7 +53,7 @@ std::string PositionText(const Eigen::Isometry3d& pose, const std::string& base)
 }
 
 std::string LaserText(const Eigen::Isometry3d& pose, const std::string& base) {
-  const double yaw = ToPose2(pose).theta * kDegrees;
+  const double yaw = Degrees(ToPose2(pose).theta);
   return PositionText(pose, base) + ", turned " + NumberText(yaw, 1) + " deg" +
          (pose.linear()(2, 2) < 0.0 ? ", upside down" : "");
 }
@@ -64,8 +63,8 @@ Eigen::Vector3d OpticalAxis(const Eigen::Isometry3d& pose) { return pose.linear(
 std::string CameraText(const Eigen::Isometry3d& pose, const std::string& base) {
   const Eigen::Vector3d axis = OpticalAxis(pose);
   return PositionText(pose, base) + ", looking " +
-         NumberText(std::atan2(axis.y(), axis.x()) * kDegrees, 1) + " deg left and " +
-         NumberText(-std::asin(axis.z()) * kDegrees, 1) + " deg down";
+         NumberText(Degrees(std::atan2(axis.y(), axis.x())), 1) + " deg left and " +
+         NumberText(Degrees(-std::asin(axis.z())), 1) + " deg down";
 }
 
 std::string TransformsText(const RecordedTransforms& transforms) {
@@ -136,7 +135,7 @@ Finding Disagreement(const RecordedTransforms::Link& link) {
     const auto& t = transform.translation;
     text += (&transform == &link.values.front().transform ? " " : "; ") +
             ("x " + NumberText(t.x, 3) + ", y " + NumberText(t.y, 3) + ", z " + NumberText(t.z, 3) +
-             " m, yaw " + NumberText(Yaw(transform.rotation) * kDegrees, 1) + " deg (" +
+             " m, yaw " + NumberText(Degrees(Yaw(transform.rotation)), 1) + " deg (" +
              CountText(times, "time") + ")");
   }
   return {Severity::kWarning, text + "; the most frequent one is used",
@@ -176,17 +175,17 @@ Findings CheckFrames(const BagContents& contents, const BagPlan& plan) {
 }
 
 bool IsImage(const RecordedTopic& topic) {
-  return topic.type == "sensor_msgs/Image" || topic.type == "sensor_msgs/CompressedImage";
+  return topic.type == kImageType || topic.type == kCompressedImageType;
 }
 
 /// Of each kind of sensor the topic that is used, or all, as one wants to know why none is.
 std::vector<std::string> TopicsToCheck(const BagContents& contents, const BagPlan& plan) {
   std::vector<std::string> names;
   for (const auto& [name, topic] : contents.topics) {
-    const std::string* used = topic.type == "sensor_msgs/LaserScan" ? &plan.scan
-                              : topic.type == "nav_msgs/Odometry"   ? &plan.odom
-                              : IsImage(topic)                      ? &plan.image
-                                                                    : nullptr;
+    const std::string* used = topic.type == kScanType       ? &plan.scan
+                              : topic.type == kOdometryType ? &plan.odom
+                              : IsImage(topic)              ? &plan.image
+                                                            : nullptr;
     if (used != nullptr && (used->empty() || *used == name)) names.push_back(name);
   }
   return names;
@@ -213,7 +212,7 @@ std::string DescribeContents(const BagContents& contents, const BagPlan& plan) {
   describe("scans", plan.scan, plan.usable() ? DescribeScans(topic(plan.scan).scans) : "");
   describe("encoders", plan.odom,
            NumberText(topic(plan.odom).odometry.way(), 1) + " m driven, " +
-               NumberText(topic(plan.odom).odometry.turned() * kDegrees, 0) + " deg turned, " +
+               NumberText(Degrees(topic(plan.odom).odometry.turned()), 0) + " deg turned, " +
                plan.odom_frame + " -> " + topic(plan.odom).child_frame);
   describe("images", plan.image, DescribeImages(topic(plan.image).images));
   if (!plan.camera_info.empty()) {

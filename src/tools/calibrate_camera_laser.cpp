@@ -24,7 +24,7 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr double kDegrees = 180.0 / M_PI;
+constexpr double kDegrees = Degrees(1.0);  // in a radian
 
 struct Arguments {
   BagArguments input;

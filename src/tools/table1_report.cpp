@@ -13,7 +13,7 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr double kDegrees = 180.0 / M_PI;
+constexpr double kDegrees = Degrees(1.0);  // in a radian
 
 void WriteFile(const std::string& path, const std::string& text) {
   // Written beside and moved: a cancelled run leaves no half a file.

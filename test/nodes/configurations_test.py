@@ -3,15 +3,13 @@
 
 import glob
 import os
-import signal
-import subprocess
 import unittest
 
 import rospkg
 import rospy
 import rostest
 import yaml
-from live_support import program, wait_for
+from live_support import expect_up_and_down
 
 PACKAGE = rospkg.RosPack().get_path('scan_image_slam')
 NODES = ('scan_image_fusion', 'bounded_icp', 'mapper')
@@ -38,24 +36,7 @@ class ConfigurationsTest(unittest.TestCase):
             self.assertLessEqual(set(parameters), set(NODES))
             for node in NODES:
                 with self.subTest(path=path, node=node):
-                    self.expect_up_and_down(node, space)
-
-    def expect_up_and_down(self, node, space):
-        process = subprocess.Popen([program(node), '__ns:=' + space], stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, text=True)
-
-        def is_up():
-            if process.poll() is not None:
-                return True
-            publishers = rospy.get_master().getSystemState()[2][0]
-            return any(f'{space}/{node}' in nodes for topic, nodes in publishers
-                       if topic != '/rosout')
-        try:
-            wait_for(is_up, 'the node ' + node)
-        finally:
-            process.send_signal(signal.SIGINT)
-            output, _ = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 0, output)
+                    expect_up_and_down(f'{space}/{node}')
 
 
 if __name__ == '__main__':

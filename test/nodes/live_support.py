@@ -224,6 +224,28 @@ def program(name):
     return found[0]
 
 
+def expect_up_and_down(name, *arguments):
+    """Node NAME of that full name comes up, and ends in order when it is told to; gives what it
+    said."""
+    space, _, base = name.rpartition('/')
+    process = subprocess.Popen([program(base), '__ns:=' + (space or '/'), *arguments],
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+    def is_up():
+        if process.poll() is not None:
+            raise AssertionError(f'{name} has ended with {process.returncode}')
+        publishers = rospy.get_master().getSystemState()[2][0]
+        return any(name in nodes for topic, nodes in publishers if topic != '/rosout')
+    try:
+        wait_for(is_up, 'the node ' + name)
+    finally:
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=60)
+    if process.returncode != 0:
+        raise AssertionError(f'{name} ended with {process.returncode}: {output}')
+    return output
+
+
 def run(*command):
     """Runs a program to its end; fails with what it said if it fails."""
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 """A node with a wrong parameter ends at once, with an exit code and the parameter's full name."""
 
-import signal
 import subprocess
 import unittest
 
 import rospy
 import rostest
-from live_support import program, wait_for
+from live_support import expect_up_and_down, program
 
 NODES = ('scan_image_fusion', 'bounded_icp', 'mapper')
 
@@ -17,41 +16,29 @@ class WrongParametersTest(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node('wrong_parameters_test')
 
-    def start(self, node, parameters, name=None, *arguments):
-        """Starts a node with private parameters."""
-        name = name or '/' + node
+    def set_private(self, name, parameters):
+        """Gives the node these private parameters and no others."""
         for key in rospy.get_param_names():
             if key.startswith(name + '/'):
                 rospy.delete_param(key)
         for key, value in parameters.items():
             rospy.set_param(f'{name}/{key}', value)
-        namespace, _, base = name.rpartition('/')
-        return subprocess.Popen([program(node), '__name:=' + base, '__ns:=' + (namespace or '/'),
-                                 *arguments],
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def expect_end(self, node, parameters, *words, name=None):
-        process = self.start(node, parameters, name)
-        output, _ = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 1, output)
+        name = name or '/' + node
+        self.set_private(name, parameters)
+        namespace, _, base = name.rpartition('/')
+        process = subprocess.run([program(node), '__name:=' + base, '__ns:=' + (namespace or '/')],
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                 timeout=60)
+        self.assertEqual(process.returncode, 1, process.stdout)
         for word in words:
-            self.assertIn(word, output)
+            self.assertIn(word, process.stdout)
 
     def expect_running(self, node, parameters, *arguments):
         """The node comes up and ends in order when it is told to; gives what it said."""
-        process = self.start(node, parameters, None, *arguments)
-
-        def is_up():
-            self.assertIsNone(process.poll(), 'the node has ended')
-            return any(f'/{node}/' in service or f'/{node}' in nodes for service, nodes in
-                       rospy.get_master().getSystemState()[2][0])
-        try:
-            wait_for(is_up, 'the node ' + node)
-        finally:
-            process.send_signal(signal.SIGINT)
-            output, _ = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 0, output)
-        return output
+        self.set_private('/' + node, parameters)
+        return expect_up_and_down('/' + node, *arguments)
 
     def test_unknown(self):
         self.expect_end('scan_image_fusion', {'min_rnage': 0.2},

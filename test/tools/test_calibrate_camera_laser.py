@@ -1,7 +1,6 @@
 """calibrate_camera_laser: what is true of the simulated robot is found again."""
 import os
 import struct
-import tempfile
 import unittest
 
 from tools import ToolTest, copy_bag, key_values, read, run, simulate
@@ -33,12 +32,7 @@ def values(report):
 class Calibrate(ToolTest):
     @classmethod
     def setUpClass(cls):
-        cls.shared = tempfile.TemporaryDirectory()
-        cls.bag = simulate(os.path.join(cls.shared.name, "run.bag"), "--path", "fast", duration=16)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.shared.cleanup()
+        cls.bag = cls.share_bag("--path", "fast", duration=16)
 
     def calibrate(self, bag, *arguments):
         return run("calibrate_camera_laser", "--bag", bag, *arguments)

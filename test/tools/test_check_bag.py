@@ -3,7 +3,6 @@ import json
 import os
 import shlex
 import subprocess
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
@@ -22,12 +21,7 @@ def shift(stamp, seconds):
 class CheckBag(ToolTest):
     @classmethod
     def setUpClass(cls):
-        cls.shared = tempfile.TemporaryDirectory()
-        cls.bag = simulate(os.path.join(cls.shared.name, "run.bag"), duration=3)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.shared.cleanup()
+        cls.bag = cls.share_bag(duration=3)
 
     def shell(self, line):
         """As a user types it, with the programs in the path."""

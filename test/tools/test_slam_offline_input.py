@@ -2,7 +2,7 @@
 import os
 import unittest
 
-from tools import ToolTest, copy_bag, read, run, simulate
+from tools import ToolTest, copy_bag, read, run
 
 
 class Configuration(ToolTest):
@@ -52,13 +52,7 @@ class Configuration(ToolTest):
 class Input(ToolTest):
     @classmethod
     def setUpClass(cls):
-        import tempfile
-        cls.shared = tempfile.TemporaryDirectory()
-        cls.bag = simulate(os.path.join(cls.shared.name, "run.bag"), duration=0.6)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.shared.cleanup()
+        cls.bag = cls.share_bag(duration=0.6)
 
     def slam(self, bag, *arguments, out="out"):
         return run("slam_offline", "--bag", bag, "--out", self.path(out), *arguments)

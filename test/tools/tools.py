@@ -74,6 +74,13 @@ class ToolTest(unittest.TestCase):
         self.folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, self.folder)
 
+    @classmethod
+    def share_bag(cls, *arguments, duration):
+        """A simulated bag that all tests of the class use."""
+        folder = tempfile.mkdtemp()
+        cls.addClassCleanup(shutil.rmtree, folder)
+        return simulate(os.path.join(folder, "run.bag"), *arguments, duration=duration)
+
     def path(self, *parts):
         return os.path.join(self.folder, *parts)
 

@@ -20,6 +20,16 @@ class BufferCore;
 
 namespace scan_image_slam {
 
+/// Types of the messages that are read.
+constexpr char kScanType[] = "sensor_msgs/LaserScan";
+constexpr char kImageType[] = "sensor_msgs/Image";
+constexpr char kCompressedImageType[] = "sensor_msgs/CompressedImage";
+constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
+constexpr char kOdometryType[] = "nav_msgs/Odometry";
+
+/// How image_transport ends the names of topics with compressed images.
+constexpr char kCompressedEnding[] = "/compressed";
+
 /// A bag that can't be used; the message names the file and what is missing or wrong.
 class BagError : public std::runtime_error {
  public:

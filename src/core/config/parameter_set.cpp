@@ -63,7 +63,6 @@ std::string ToText(const ParameterValue& value) {
 std::string RangeText(const Parameter& p) {
   if (p.type == "bool") return "";
   if (p.type == "string") return Join(p.choices);
-  constexpr double kUnlimited = 1e9;
   if (p.range.max < kUnlimited) return ToText(p.range.min) + " to " + ToText(p.range.max);
   if (p.range.min <= -kUnlimited) return "";
   return p.range.min > 0.0 ? "positive" : "not negative";

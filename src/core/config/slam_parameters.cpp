@@ -3,9 +3,9 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr ParameterRange kPositive{1e-9, 1e9};
-constexpr ParameterRange kNotNegative{0.0, 1e9};
-constexpr ParameterRange kAny{-1e9, 1e9};
+constexpr ParameterRange kPositive{1e-9, kUnlimited};
+constexpr ParameterRange kNotNegative{0.0, kUnlimited};
+constexpr ParameterRange kAny{-kUnlimited, kUnlimited};
 constexpr ParameterRange kFraction{0.0, 1.0};
 constexpr ParameterRange kAngle{-360.0, 360.0};
 

@@ -47,8 +47,6 @@ std::string DescribeSpan(const std::vector<Relation>& relations) {
   return "from " + FormatStamp(begin) + " to " + FormatStamp(end);
 }
 
-double Degrees(double radians) { return radians * 180.0 / M_PI; }
-
 }  // namespace
 
 std::vector<Relation> ReadRelations(std::istream& input, const std::string& source) {

@@ -130,8 +130,6 @@ void SetAbsoluteErrors(const std::vector<PosePair>& pairs, const Pose2& referenc
   errors.yaw = Summarize(list.rotation);
 }
 
-double Degrees(double radians) { return radians * 180.0 / M_PI; }
-
 void AddRelative(const std::string& name, const RelativeErrors& errors, KeyValues& line) {
   line.Add(name + "_rmse_m", errors.translation.rms)
       .Add(name + "_max_m", errors.translation.max)

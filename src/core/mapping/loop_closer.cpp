@@ -74,7 +74,8 @@ void LoopCloser::Enter(std::shared_ptr<const Keyframe> keyframe) {
 void LoopCloser::Join(const GraphConstraint& constraint) {
   constexpr double kRecognised = 0.5;  // [m]
   const auto [from, to] = std::make_pair(constraint.from, constraint.to);
-  const double way = from + 1 == to ? keyframes_[to]->way - keyframes_[from]->way : kRecognised;
+  const double way =
+      constraint.closes_loop() ? kRecognised : keyframes_[to]->way - keyframes_[from]->way;
   neighbours_[from].push_back({to, way});
   neighbours_[to].push_back({from, way});
 }

@@ -1,5 +1,6 @@
 #include "scan_image_slam/core/recording/camera_record.h"
 
+#include "scan_image_slam/core/geometry/pose2.h"
 #include "scan_image_slam/core/recording/number_text.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kDark = 30.0;     // [grey levels]
 constexpr double kBright = 225.0;  // [grey levels]
 const char kCalibrate[] = "calibrate the camera (camera_calibration), at the size of its images";
@@ -21,7 +21,7 @@ std::string SizeText(int width, int height) {
 double Width(const CameraIntrinsics& camera) {
   const double fx = camera.k(0, 0);
   const double cx = camera.k(0, 2);
-  return (std::atan2(cx, fx) + std::atan2(camera.width - cx, fx)) * kDegrees;
+  return Degrees(std::atan2(cx, fx) + std::atan2(camera.width - cx, fx));
 }
 
 /// A centre or a focal length that no usual lens has.

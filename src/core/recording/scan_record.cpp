@@ -1,5 +1,6 @@
 #include "scan_image_slam/core/recording/scan_record.h"
 
+#include "scan_image_slam/core/geometry/pose2.h"
 #include "scan_image_slam/core/recording/number_text.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kFewHits = 0.2;         // of the beams
 constexpr double kNarrow = 100.0;        // the field of view of the paper's model [deg]
 constexpr double kMaxSweepShare = 1.05;  // of the period
@@ -47,11 +47,11 @@ void CheckGeometry(const std::string& topic, const ScanRecord& record, Findings*
                              std::to_string(record.UsualBeams()),
                          "nothing: beams are told by their angles"});
   }
-  if (record.FieldOfView() * kDegrees < kNarrow) {
-    findings->push_back({Severity::kWarning,
-                         topic + ": the scans cover only " +
-                             NumberText(record.FieldOfView() * kDegrees, 0) + " deg",
-                         "set angle_min and angle_max of the driver to all the laser has"});
+  if (Degrees(record.FieldOfView()) < kNarrow) {
+    findings->push_back(
+        {Severity::kWarning,
+         topic + ": the scans cover only " + NumberText(Degrees(record.FieldOfView()), 0) + " deg",
+         "set angle_min and angle_max of the driver to all the laser has"});
   }
 }
 
@@ -143,9 +143,9 @@ double ScanRecord::SweepTime() const {
 std::string DescribeScans(const ScanRecord& record) {
   const LaserScan& scan = record.usual();
   const double last = scan.Bearing(scan.ranges.size() - 1);
-  return std::to_string(scan.ranges.size()) + " beams, " +
-         NumberText(scan.angle_min * kDegrees, 1) + " to " + NumberText(last * kDegrees, 1) +
-         " deg, every " + NumberText(std::abs(scan.angle_increment) * kDegrees, 3) + " deg; " +
+  return std::to_string(scan.ranges.size()) + " beams, " + NumberText(Degrees(scan.angle_min), 1) +
+         " to " + NumberText(Degrees(last), 1) + " deg, every " +
+         NumberText(Degrees(std::abs(scan.angle_increment)), 3) + " deg; " +
          NumberText(scan.range_min, 3) + " to " + NumberText(scan.range_max, 1) + " m, " +
          ShareText(Share(record.ranges().hits, record.ranges())) + " hits; sweep " +
          (record.SweepTime() > 0.0 ? DurationText(record.SweepTime()) : "time unknown");

@@ -20,6 +20,9 @@ class ParameterError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A bound so far away that there is none, for those who read of it.
+constexpr double kUnlimited = 1e9;
+
 /// Closed interval that a number must lie in.
 struct ParameterRange {
   double min = -std::numeric_limits<double>::infinity();

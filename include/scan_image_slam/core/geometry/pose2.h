@@ -6,6 +6,9 @@
 
 namespace scan_image_slam {
 
+/// An angle as people read it [deg].
+constexpr double Degrees(double radians) { return radians * 180.0 / M_PI; }
+
 /// The same angle in (-pi, pi] [rad]; NaN if it is not finite.
 double NormalizeAngle(double angle);
 
