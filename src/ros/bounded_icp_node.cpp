@@ -7,6 +7,7 @@
 #include <scan_image_slam/ScanMatch.h>
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -67,6 +68,10 @@ BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_nod
   watch_.AddValue("mode", [this] { return ModeName(last_match_.mode); });
   watch_.AddValue("matches", [this] { return std::to_string(matches_); });
   watch_.AddValue("window edge hits", [this] { return std::to_string(window_edge_hits_); });
+  watch_.AddValue("encoder scale",
+                  [this] { return std::to_string(bounded_icp_.learned().encoder_scale); });
+  watch_.AddValue("camera yaw correction [deg]",
+                  [this] { return std::to_string(Degrees(bounded_icp_.learned().camera_yaw)); });
   watch_.AddValue("models dropped", [this] { return std::to_string(gate_.dropped()); });
   release_timer_ = node.createWallTimer(ros::WallDuration(0.005),
                                         [this](const ros::WallTimerEvent&) { ReleaseModels(); });
@@ -127,8 +132,24 @@ void BoundedIcpNode::Publish(const MatchedMotion& match) {
   last_match_ = match;
   ++matches_;
   if (match.status == MatchStatus::kOnWindowEdge) ++window_edge_hits_;
+  CheckCalibration();
   PublishShared(match_publisher_, ToMessage(match, options_.node.odometry.base_frame));
   if (window_publisher_.getNumSubscribers() > 0) PublishWindow(match);
+}
+
+/// Small errors of the camera's yaw are made up for; it is told if they are large and certain.
+void BoundedIcpNode::CheckCalibration() {
+  constexpr double kTolerated = 0.3;  // [deg]
+  constexpr double kCertain = 0.1;    // standard deviation [deg]
+  const LearnedCalibration learned = bounded_icp_.learned();
+  const double yaw = Degrees(learned.camera_yaw);
+  const bool off = std::abs(yaw) > kTolerated && Degrees(learned.camera_yaw_stddev) < kCertain;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "the camera looks %.1f deg farther to the %s than its transform says: mend that, "
+                "calibrate_camera_laser finds the values",
+                std::abs(yaw), yaw > 0.0 ? "left" : "right");
+  watch_.SetProblem("camera yaw", off ? text : "");
 }
 
 /// The window around the prediction, magnified so that it can be seen, and where the result lies.

@@ -36,7 +36,7 @@ struct Arguments {
 /// The stages for a camera whose place is in doubt: it must not touch the poses that judge it, and
 /// only edges near the laser's plane belong to what the laser sees.
 SlamOptions WithDoubtfulCamera(SlamOptions options) {
-  options.bounded_icp.local_map_matcher.edge_map.max_range = 1e-9;
+  options.bounded_icp.local_map_matcher.filter.edges.max_range = 1e-9;
   options.loop_closer.enabled = false;
   options.fusion.edges.roi_below = 0.25;
   options.fusion.edges.roi_above = 0.5;

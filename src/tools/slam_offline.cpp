@@ -230,6 +230,7 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
   WriteResults(arguments, run, trajectory, pipeline.mapper().grid());
   if (!arguments.save_state.empty()) WriteState(pipeline.Save(), arguments.save_state);
   const double recorded = Seconds(run.last_stamp - run.first_stamp);
+  const LearnedCalibration learned = pipeline.bounded_icp().learned();
   nlohmann::json report = {
       {"scans", run.scans},
       {"lost_s", run.lost_s},
@@ -239,6 +240,9 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
       {"peak_memory_mb", PeakMemoryMegabytes()},
       {"stages", times.Report()},
       {"window_edge_hits", run.window_edge_hits},
+      {"encoder_scale", learned.encoder_scale},
+      {"camera_yaw_deg", Degrees(learned.camera_yaw)},
+      {"camera_yaw_stddev_deg", Degrees(learned.camera_yaw_stddev)},
       {"loop_closures", pipeline.loop_closer().closures()},
       {"dropped", pipeline.dropped()},
   };

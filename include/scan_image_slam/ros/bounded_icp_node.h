@@ -37,6 +37,7 @@ class BoundedIcpNode {
   void OnCommand(const std_msgs::StringConstPtr& message);
   void ReleaseModels();
   void Publish(const MatchedMotion& match);
+  void CheckCalibration();
   void PublishWindow(const MatchedMotion& match);
   void StartOver(const char* reason);
 

@@ -28,8 +28,9 @@ std::vector<ViewedEdge> ViewedEdges(const ScanImageFusion& fusion) {
       continue;
     }
     const double row = std::clamp(image.Row(below / distance), edge.top - 0.0, edge.bottom + 0.0);
-    edges.push_back(
-        {image.Bearing(edge.ColumnAt(row)), image.Slope(row), edge.lean, edge.lean_stddev});
+    const double lean = image.step() / image.row_step();  // of one column per row [rad]
+    edges.push_back({image.Bearing(edge.ColumnAt(row)), image.Slope(row), edge.lean * lean,
+                     edge.lean_stddev * lean});
   }
   std::sort(edges.begin(), edges.end(),
             [](const ViewedEdge& a, const ViewedEdge& b) { return a.bearing < b.bearing; });

@@ -9,6 +9,7 @@ namespace scan_image_slam {
 namespace {
 
 constexpr double kMaxLean = 0.15;    // more is no vertical edge of a camera whose attitude is known
+constexpr std::size_t kFewest = 3;   // pixels of an edge
 constexpr double kMaxScatter = 0.8;  // of the pixels around the line [px]
 
 /// Least squares of the columns over the rows.
@@ -50,18 +51,20 @@ double MedianColumn(std::vector<cv::Point2d> pixels) {
 UprightEdge FitUprightEdge(const std::vector<cv::Point2d>& pixels, double min_rows) {
   UprightEdge none;
   none.bottom = -1;
-  if (pixels.size() < min_rows) return none;
+  if (pixels.size() < kFewest) return none;
   // Where a chain turns round a corner, its pixels leave the column that most of them are in.
   UprightEdge edge;
   edge.column = MedianColumn(pixels);
-  double gate = 2.0 + 0.5 * kMaxLean * static_cast<double>(pixels.size());
+  const auto rows_of = std::minmax_element(pixels.begin(), pixels.end(),
+                                           [](const auto& a, const auto& b) { return a.y < b.y; });
+  double gate = 2.0 + 0.5 * kMaxLean * (rows_of.second->y - rows_of.first->y + 1.0);
   std::vector<cv::Point2d> kept;
   for (int round = 0; round < 3; ++round, gate = std::max(1.0, 0.4 * gate)) {
     kept.clear();
     for (const cv::Point2d& p : pixels) {
       if (std::abs(p.x - edge.ColumnAt(p.y)) <= gate) kept.push_back(p);
     }
-    if (kept.size() < std::max(3.0, min_rows)) return none;
+    if (kept.size() < kFewest) return none;
     edge = FitLine(kept);
   }
   const double rows = edge.bottom - edge.top + 1.0;
@@ -74,15 +77,23 @@ std::vector<UprightEdge> FindUprightEdges(const cv::Mat& grey, const BearingImag
   if (begin >= end) return {};
   EdgePixels pixels = FindEdgePixels(image.Resample(grey, begin, end), options.edge_threshold);
   pixels.sign.setTo(0, image.mask().rowRange(begin, end) == 0);
+  // Lines are fitted in rows as fine as the columns.
+  constexpr int kRow = BearingImage::kRowPixels;
   std::vector<UprightEdge> edges;
-  for (const EdgeChain& chain : FollowChains(pixels.sign)) {
-    if (chain.Strength() < 2.0 * (options.min_edge_rows - 1.0)) continue;
+  for (const EdgeChain& chain : FollowChains(pixels, options.edge_threshold)) {
+    if (chain.Strength() < 2.0 * (options.min_edge_rows / kRow - 1.0)) continue;
     std::vector<cv::Point2d> points;
     points.reserve(chain.pixels.size());
     for (const cv::Point& p : chain.pixels)
-      points.emplace_back(SubpixelColumn(pixels, p), p.y + begin);
-    const UprightEdge edge = FitUprightEdge(points, options.min_edge_rows);
-    if (edge.bottom >= edge.top) edges.push_back(edge);
+      points.emplace_back(SubpixelColumn(pixels, p), kRow * (p.y + begin));
+    UprightEdge edge = FitUprightEdge(points, options.min_edge_rows);
+    if (edge.bottom < edge.top) continue;
+    edge.row /= kRow;
+    edge.lean *= kRow;
+    edge.lean_stddev *= kRow;
+    edge.top /= kRow;
+    edge.bottom /= kRow;
+    edges.push_back(edge);
   }
   return edges;
 }

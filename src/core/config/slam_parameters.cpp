@@ -126,15 +126,24 @@ void AddLocalMapMatcher(LocalMapMatcherOptions* o, ParameterSet* set) {
            "what was not seen on the last stretch of this length is left to the mapper");
   set->Add("local_map/min_matched_fraction", &o->min_matched_fraction, "-", kFraction,
            "of the points of a scan, to let it enter the map");
-  set->Add("edge_map/gate", &o->edge_map.gate, "m", kPositive, "farthest edge from its landmark");
-  set->Add("edge_map/min_separation", &o->edge_map.min_separation, "m", kPositive,
+  set->Add("edge_map/gate", &o->filter.edges.gate, "m", kPositive,
+           "farthest edge from its landmark");
+  set->Add("edge_map/min_separation", &o->filter.edges.min_separation, "m", kPositive,
            "between two edges of one sign that can be told apart");
-  set->Add("edge_map/min_weight", &o->edge_map.min_weight, "-", {0.01, 1.0},
+  set->Add("edge_map/min_weight", &o->filter.edges.min_weight, "-", {0.01, 1.0},
            "share of the region of interest that must be vertical edge");
-  set->Add("edge_map/max_range", &o->edge_map.max_range, "m", kPositive,
+  set->Add("edge_map/max_range", &o->filter.edges.max_range, "m", kPositive,
            "farther edges are not used");
-  set->Add("edge_map/surface_stddev", &o->edge_map.surface_stddev, "m", kPositive,
+  set->Add("edge_map/surface_stddev", &o->filter.edges.surface_stddev, "m", kPositive,
            "how far an edge may lie off the surface that the laser sees");
+  set->Add("filter/scale_stddev", &o->filter.scale_stddev, "-", {0.0, 1.0},
+           "how wrong the distance of the encoders usually is, as a share; learned while driving");
+  set->AddDegrees("filter/camera_yaw_stddev_deg", &o->filter.camera_yaw_stddev, {0.0, 10.0},
+                  "how wrong the yaw of the camera may be; learned while driving");
+  set->Add("filter/edge_correlation", &o->filter.edge_correlation, "-", {1.0, 1e6},
+           "edges of successive images that err together, as if they were one");
+  set->Add("filter/keep_distance", &o->filter.keep_distance, "m", kPositive,
+           "driven since an edge was seen, until it is forgotten");
   RefinementOptions& r = o->refinement;
   set->Add("refinement/max_iterations", &r.max_iterations, "-", {0.0, 100.0},
            "least squares steps; 0 leaves the motion on the grid");
@@ -235,13 +244,17 @@ ParameterSet FusionParameters(ScanImageFusionOptions* o, ScanImageFusionNodeOpti
           "the same in rows of the picture");
   set.Add("column_tolerance", &o->edges.column_tolerance, "px", kPositive,
           "runs in columns so near to each other are one edge");
+  set.Add(
+      "max_edge_slant", &o->max_edge_slant, "m/rad", kPositive,
+      "metres of wall in an angle of the view, range by the cosine of the incidence; farther and "
+      "more grazing, the details of doors and posters run into one another: not used");
   set.Add("edge_bearing_stddev", &o->edge_bearing_stddev, "px", kPositive,
-          "standard deviation of an edge's column");
+          "standard deviation of an edge's column, beside that of its fit");
   AddOdometryLimits(&o->odometry, &set);
   set.AllowLive({"odom_max_wait", "min_range", "max_range", "field_of_view_deg",
                  "min_beam_spacing_deg", "max_image_age", "camera_time_offset", "roi_below",
                  "roi_above", "edge_threshold", "min_edge_length", "min_edge_rows",
-                 "column_tolerance", "edge_bearing_stddev"});
+                 "column_tolerance", "max_edge_slant", "edge_bearing_stddev"});
   return set;
 }
 
@@ -265,7 +278,7 @@ ParameterSet BoundedIcpParameters(BoundedIcpOptions* o, BoundedIcpNodeOptions* n
   AddLocalMapMatcher(&o->local_map_matcher, &set);
   AddFrameMatcher(&o->frame_matcher, &set);
   AddOdometryLimits(&o->prediction.odometry, &set);
-  set.AllowLive({"odom_max_wait", "window/", "noise/", "edge_map/", "refinement/"});
+  set.AllowLive({"odom_max_wait", "window/", "noise/", "edge_map/", "filter/", "refinement/"});
   return set;
 }
 

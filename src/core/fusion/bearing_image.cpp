@@ -54,6 +54,43 @@ Extent FindExtent(const CameraModel& camera, const Eigen::Isometry3d& base_from_
   return extent;
 }
 
+/// How many rows of the camera's picture can be averaged without blurring a vertical edge, which
+/// leans as the columns of the map do.
+int RowsToPool(const cv::Mat& map) {
+  constexpr double kMaxShift = 0.5;  // [px]
+  double lean = 0.0;
+  for (int row = 1; row < map.rows; ++row) {
+    for (int column = 0; column < map.cols; ++column) {
+      const cv::Point2f above = map.at<cv::Point2f>(row - 1, column);
+      const cv::Point2f here = map.at<cv::Point2f>(row, column);
+      if (above.x < 0.0f || here.x < 0.0f) continue;
+      const cv::Point2f along = here - above;
+      lean = std::max<double>(lean, std::abs(along.x) / std::max(std::abs(along.y), 1e-6f));
+    }
+  }
+  int rows = BearingImage::kRowPixels;
+  while (rows > 1 && rows * lean > kMaxShift) rows /= 2;
+  return rows;
+}
+
+/// Means of `pooled` rows each.
+cv::Mat PoolRows(const cv::Mat& grey, int pooled) {
+  if (pooled == 1) return grey;
+  cv::Mat means(grey.rows / pooled, grey.cols, CV_8U);
+  std::vector<std::uint16_t> sums(grey.cols);
+  for (int y = 0; y < means.rows; ++y) {
+    std::fill(sums.begin(), sums.end(), pooled / 2);
+    for (int i = 0; i < pooled; ++i) {
+      const auto* row = grey.ptr<std::uint8_t>(pooled * y + i);
+      for (int x = 0; x < grey.cols; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + row[x]);
+    }
+    auto* mean = means.ptr<std::uint8_t>(y);
+    const int shift = pooled == 4 ? 2 : 1;
+    for (int x = 0; x < grey.cols; ++x) mean[x] = static_cast<std::uint8_t>(sums[x] >> shift);
+  }
+  return means;
+}
+
 }  // namespace
 
 BearingImage::BearingImage(const CameraModel& camera, const Eigen::Isometry3d& base_from_camera)
@@ -64,7 +101,7 @@ BearingImage::BearingImage(const CameraModel& camera, const Eigen::Isometry3d& b
   max_bearing_ = extent.heading + extent.max_bearing;
   max_slope_ = extent.max_slope;
   const int columns = 1 + static_cast<int>((extent.max_bearing - extent.min_bearing) / step_);
-  const int rows = 1 + static_cast<int>((extent.max_slope - extent.min_slope) / step_);
+  const int rows = 1 + static_cast<int>((extent.max_slope - extent.min_slope) / row_step());
 
   map_.create(rows, columns, CV_32FC2);
   const Eigen::Matrix3d camera_from_base = base_from_camera.linear().transpose();
@@ -79,7 +116,12 @@ BearingImage::BearingImage(const CameraModel& camera, const Eigen::Isometry3d& b
     const std::vector<cv::Point2f> pixels = camera.Project(rays);
     std::copy(pixels.begin(), pixels.end(), map_.ptr<cv::Point2f>(row));
   }
-  cv::convertMaps(map_, cv::noArray(), fixed_map_, fraction_, CV_16SC2);
+  pooled_rows_ = RowsToPool(map_);
+  cv::Mat pooled_map = map_.clone();
+  for (auto p = pooled_map.begin<cv::Point2f>(); p != pooled_map.end<cv::Point2f>(); ++p) {
+    if ((*p).y >= 0.0f) (*p).y = ((*p).y + 0.5f) / static_cast<float>(pooled_rows_) - 0.5f;
+  }
+  cv::convertMaps(pooled_map, cv::noArray(), fixed_map_, fraction_, CV_16SC2);
 
   cv::Mat inside(rows, columns, CV_8U);
   for (int row = 0; row < rows; ++row) {
@@ -89,14 +131,14 @@ BearingImage::BearingImage(const CameraModel& camera, const Eigen::Isometry3d& b
       inside.at<std::uint8_t>(row, column) = sees ? 255 : 0;
     }
   }
-  cv::erode(inside, mask_, cv::Mat::ones(5, 5, CV_8U), cv::Point(-1, -1), 1, cv::BORDER_CONSTANT,
+  cv::erode(inside, mask_, cv::Mat::ones(3, 5, CV_8U), cv::Point(-1, -1), 1, cv::BORDER_CONSTANT,
             cv::Scalar(0));
 }
 
 cv::Mat BearingImage::Resample(const cv::Mat& grey, int begin, int end) const {
   cv::Mat resampled;
-  cv::remap(grey, resampled, fixed_map_.rowRange(begin, end), fraction_.rowRange(begin, end),
-            cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::remap(PoolRows(grey, pooled_rows_), resampled, fixed_map_.rowRange(begin, end),
+            fraction_.rowRange(begin, end), cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0));
   return resampled;
 }
 

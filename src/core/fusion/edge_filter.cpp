@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-#include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace scan_image_slam {
 namespace {
@@ -15,6 +14,9 @@ constexpr std::array<int, 8> kStepY = {0, -1, -1, -1, 0, 1, 1, 1};
 
 /// Of directions that hold the same, the vertical ones come first, then the diagonals.
 constexpr std::array<int, 8> kPreference = {6, 2, 5, 7, 1, 3, 4, 0};
+
+/// What is left of a step in the difference of the pixels beside it, by lens and resampling.
+constexpr double kStepGain = 0.8;
 
 bool IsEdge(const cv::Mat& edge_pixels, int x, int y, std::int8_t sign) {
   return x >= 0 && y >= 0 && x < edge_pixels.cols && y < edge_pixels.rows &&
@@ -68,35 +70,43 @@ double VerticalWeight(const DirectionHistogram& h) {
 }
 
 EdgePixels FindEdgePixels(const cv::Mat& grey, double threshold) {
-  cv::Mat smooth;
-  cv::Mat dx;
-  cv::Mat dy;
-  cv::GaussianBlur(grey, smooth, cv::Size(3, 5), 0.0);
-  cv::Sobel(smooth, dx, CV_16S, 1, 0);
-  cv::Sobel(smooth, dy, CV_16S, 0, 1);
-  cv::Mat canny;
-  cv::Canny(dx, dy, canny, 0.5 * kStepGain * threshold, kStepGain * threshold, true);
+  const auto least = static_cast<std::int16_t>(std::ceil(0.5 * kStepGain * threshold));
   EdgePixels edges;
-  edges.gradient = dx;
+  edges.gradient = cv::Mat::zeros(grey.size(), CV_16S);
   edges.sign = cv::Mat::zeros(grey.size(), CV_8S);
-  for (int y = 0; y < canny.rows; ++y) {
-    const auto* canny_row = canny.ptr<std::uint8_t>(y);
-    const auto* gradient_row = dx.ptr<std::int16_t>(y);
-    auto* sign_row = edges.sign.ptr<std::int8_t>(y);
-    for (int x = 0; x < canny.cols; ++x) {
-      if (canny_row[x] != 0) sign_row[x] = gradient_row[x] < 0 ? -1 : 1;
+  for (int y = 0; y < grey.rows; ++y) {
+    const auto* level = grey.ptr<std::uint8_t>(y);
+    auto* gradient = edges.gradient.ptr<std::int16_t>(y);
+    auto* sign = edges.sign.ptr<std::int8_t>(y);
+    for (int x = 1; x + 1 < grey.cols; ++x) {
+      gradient[x] = static_cast<std::int16_t>(level[x + 1] - level[x - 1]);
+    }
+    for (int x = 1; x + 1 < grey.cols; ++x) {  // without branches: many pixels at once
+      const auto here = static_cast<std::int16_t>(std::abs(gradient[x]));
+      const bool is_edge = (here >= least) & (here > std::abs(gradient[x - 1])) &
+                           (here >= std::abs(gradient[x + 1]));
+      const auto side = static_cast<std::int8_t>(gradient[x] < 0 ? -1 : 1);
+      sign[x] = static_cast<std::int8_t>(is_edge ? side : 0);
     }
   }
   return edges;
 }
 
-std::vector<EdgeChain> FollowChains(const cv::Mat& sign) {
+std::vector<EdgeChain> FollowChains(const EdgePixels& edges, double threshold) {
+  const cv::Mat& sign = edges.sign;
   std::vector<EdgeChain> chains;
   cv::Mat visited = cv::Mat::zeros(sign.size(), CV_8U);
+  const auto is_step = [&](const cv::Point& p) {
+    return std::abs(edges.gradient.at<std::int16_t>(p)) >= kStepGain * threshold;
+  };
   for (int y = 0; y < sign.rows; ++y) {
+    const auto* sign_row = sign.ptr<std::int8_t>(y);
     for (int x = 0; x < sign.cols; ++x) {
-      if (sign.at<std::int8_t>(y, x) == 0 || visited.at<std::uint8_t>(y, x) != 0) continue;
-      chains.push_back(FollowChain(sign, cv::Point(x, y), &visited));
+      if (sign_row[x] == 0 || visited.at<std::uint8_t>(y, x) != 0) continue;
+      EdgeChain chain = FollowChain(sign, cv::Point(x, y), &visited);
+      if (std::any_of(chain.pixels.begin(), chain.pixels.end(), is_step)) {
+        chains.push_back(std::move(chain));
+      }
     }
   }
   return chains;

@@ -59,9 +59,9 @@ MatchedMotion BoundedIcp::Match(const FusedModel& model) {
     }
     predictor_.Update(model.stamp, Pose2());
   } else {
-    const MatchOutcome outcome =
-        use_local_map ? local_map_matcher_.Match(model, start_from_base_, covariance_, prediction)
-                      : frame_matcher_.Match(model, prediction);
+    const MatchOutcome outcome = use_local_map
+                                     ? local_map_matcher_.Match(model, start_from_base_, prediction)
+                                     : frame_matcher_.Match(model, prediction);
     const Pose2 motion = prediction.motion * FromArcCoordinates(outcome.deviation);
     match.status = StatusOf(outcome);
     match.deviation = outcome.deviation;

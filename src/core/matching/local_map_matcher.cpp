@@ -51,12 +51,12 @@ bool MattersForSweep(const Velocity2& velocity, const std::vector<SurfacePoint>&
 void LocalMapMatcherOptions::Validate() const {
   grid.Validate();
   local_map.Validate();
-  edge_map.Validate();
+  filter.Validate();
   refinement.Validate();
 }
 
 LocalMapMatcher::LocalMapMatcher(const LocalMapMatcherOptions& options)
-    : options_(options), local_map_(options.local_map, options.noise), edge_map_(options.edge_map) {
+    : options_(options), local_map_(options.local_map, options.noise), filter_(options.filter) {
   options_.Validate();
 }
 
@@ -64,13 +64,13 @@ void LocalMapMatcher::SetOptions(const LocalMapMatcherOptions& options) {
   const RangeNoise noise = options_.noise;
   options_ = options;
   options_.noise = noise;
-  edge_map_.SetOptions(options.edge_map);
+  filter_.SetOptions(options.filter);
 }
 
 void LocalMapMatcher::Start(const FusedModel& model, const Pose2& map_from_base) {
   InsertIfMoved(EstimateSurface(model, options_.surface, options_.noise), map_from_base);
-  edge_map_.Insert(DistinctEdges(model.edges, options_.edge_map), map_from_base,
-                   Eigen::Matrix3d::Zero());
+  filter_.Start(map_from_base);
+  filter_.AddEdges(DistinctEdges(model.edges, options_.filter.edges));
 }
 
 SearchResult LocalMapMatcher::Search(const std::vector<SurfacePoint>& points,
@@ -96,10 +96,8 @@ SearchResult LocalMapMatcher::Search(const std::vector<SurfacePoint>& points,
 }
 
 MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_from_last,
-                                    const Eigen::Matrix3d& covariance,
                                     const MotionPrediction& prediction) {
   std::vector<SurfacePoint> points = EstimateSurface(model, options_.surface, options_.noise);
-  const std::vector<ModelEdge> edges = DistinctEdges(model.edges, options_.edge_map);
   MatchOutcome outcome;
   if (!prediction.from_encoders) {
     outcome.sweep_correction = VelocityOf(prediction.motion, prediction.dt) - model.sweep_velocity;
@@ -110,11 +108,12 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
 
   MotionPrior prior;
   prior.map_from_base = map_from_predicted;
-  prior.covariance = TransportCovariance(covariance, prediction.motion) + prediction.covariance;
+  prior.covariance =
+      TransportCovariance(filter_.PoseCovariance(), prediction.motion) + prediction.covariance;
   prior.kernel = options_.prior_kernel;
   const auto refine_from = [&](const Pose2& start) {
-    return Refine(points, local_map_, edges, edge_map_, options_.noise, prior, start,
-                  options_.refinement);
+    return Refine(points, local_map_, {}, EdgeMap(options_.filter.edges), options_.noise, prior,
+                  start, options_.refinement);
   };
   Refinement refined = refine_from(map_from_predicted * FromArcCoordinates(found.deviation));
   const Velocity2 error = VelocityOverSweep(map_from_predicted.Inverse() * refined.map_from_base,
@@ -125,17 +124,18 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
     refined = refine_from(refined.map_from_base);
   }
 
+  Filter(refined, model.edges, map_from_last, prediction);
   const ArcCoordinates deviation =
-      ToArcCoordinates(map_from_predicted.Inverse() * refined.map_from_base);
+      ToArcCoordinates(map_from_predicted.Inverse() * filter_.map_from_base());
   outcome.on_window_edge = !prediction.window.Contains(deviation);
   outcome.deviation = prediction.window.Clamp(deviation);
-  outcome.covariance = refined.covariance;
+  outcome.covariance = filter_.PoseCovariance();
   outcome.e = found.e;
   outcome.rms = refined.rms;
   outcome.candidates = found.candidates;
   outcome.points = static_cast<int>(points.size());
   outcome.matched = refined.matched;
-  outcome.degenerate = refined.degenerate;
+  outcome.degenerate = refined.degenerate && !EdgesHold();
   outcome.degenerate_direction = refined.degenerate_direction;
   way_ += (prediction.motion * FromArcCoordinates(outcome.deviation)).translation().norm();
   ForgetOldSurroundings();
@@ -147,9 +147,27 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
     unmatched_ = 0;
     const Pose2 map_from_base = map_from_predicted * FromArcCoordinates(outcome.deviation);
     InsertIfMoved(points, map_from_base);
-    edge_map_.Insert(edges, map_from_base, outcome.covariance, way_);
   }
   return outcome;
+}
+
+/// True if the camera has told not long ago where along the way the base is.
+bool LocalMapMatcher::EdgesHold() const {
+  constexpr double kReach = 0.5;  // [m]
+  return way_at_edges_ && way_ - *way_at_edges_ <= kReach;
+}
+
+/// Puts together what encoders, scan and image tell.
+void LocalMapMatcher::Filter(const Refinement& scan, const std::vector<ModelEdge>& edges,
+                             const Pose2& map_from_last, const MotionPrediction& prediction) {
+  // The kernel finds wheels that slip where the laser sees it; in a corridor the edges must.
+  filter_.Predict(map_from_last, prediction, prediction.covariance / scan.prior_weight);
+  filter_.AddScan(scan.linearised_at, scan.information, scan.gradient);
+  const std::vector<ModelEdge> distinct = DistinctEdges(edges, options_.filter.edges);
+  if (scan.degenerate && filter_.Contradicts(distinct)) {
+    filter_.DoubtWay(prediction.window.half_distance / 3.0);
+  }
+  if (filter_.AddEdges(distinct) > 0) way_at_edges_ = way_;
 }
 
 void LocalMapMatcher::InsertIfMoved(const std::vector<SurfacePoint>& points,
@@ -171,7 +189,6 @@ void LocalMapMatcher::ForgetOldSurroundings() {
   if (way_ - way_at_forgetting_ < kStep * options_.forget_distance) return;
   way_at_forgetting_ = way_;
   local_map_.ForgetBefore(way_ - options_.forget_distance);
-  edge_map_.ForgetBefore(way_ - options_.forget_distance);
 }
 
 }  // namespace scan_image_slam

@@ -131,13 +131,19 @@ NormalEquations Without(const Eigen::Vector2d& direction, const NormalEquations&
   return {project * equations.information * project, project * equations.gradient};
 }
 
-NormalEquations PriorTerm(const MotionPrior& prior, const Eigen::Matrix3d& prior_information,
-                          const Pose2& map_from_base) {
+struct PriorTerm {
+  NormalEquations equations;
+  double weight = 1.0;
+};
+
+PriorTerm PriorAt(const MotionPrior& prior, const Eigen::Matrix3d& prior_information,
+                  const Pose2& map_from_base) {
   const Pose2 deviation = prior.map_from_base.Inverse() * map_from_base;
   const Eigen::Vector3d d(deviation.x, deviation.y, deviation.theta);
   const double squared = d.dot(prior_information * d);
-  const Eigen::Matrix3d weighted = CauchyWeight(squared, 1.0, prior.kernel) * prior_information;
-  return {weighted, weighted * d};
+  const double weight = CauchyWeight(squared, 1.0, prior.kernel);
+  const Eigen::Matrix3d weighted = weight * prior_information;
+  return {{weighted, weighted * d}, weight};
 }
 
 }  // namespace
@@ -179,10 +185,14 @@ Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
     if (weak) equations = Without(*weak, equations);
     equations += edge.equations;
     result.information = equations.information;
+    result.gradient = equations.gradient;
+    result.linearised_at = pose;
     result.degenerate =
         weak && WeakDirection(equations.information, options.degenerate_ratio).has_value();
     result.degenerate_direction = weak ? std::atan2(weak->y(), weak->x()) : 0.0;
-    equations += PriorTerm(prior, prior_information, pose);
+    const PriorTerm before = PriorAt(prior, prior_information, pose);
+    equations += before.equations;
+    result.prior_weight = before.weight;
     result.matched = scan.matched;
     result.matched_edges = edge.matched;
     result.rms = scan.weights > 0.0 ? std::sqrt(scan.weighted_squares / scan.weights) : 0.0;

@@ -62,7 +62,7 @@ TEST(FindUprightEdges, FindsBothSidesOfAPost) {
   const double b = image.Bearing(edges[1].column);
   EXPECT_NEAR(std::min(a, b), 0.10, 0.2 * image.step());
   EXPECT_NEAR(std::max(a, b), 0.16, 0.2 * image.step());
-  EXPECT_NEAR(edges[0].lean, 0.0, 0.002);
+  EXPECT_NEAR(edges[0].lean, 0.0, 0.002 * BearingImage::kRowPixels);
 }
 
 TEST(FindUprightEdges, LeanByTheRollThatIsNotKnown) {
@@ -73,7 +73,9 @@ TEST(FindUprightEdges, LeanByTheRollThatIsNotKnown) {
   const auto edges =
       FindUprightEdges(PictureOfPost(-0.03, 0.03, kRoll), image, 0, image.rows(), {});
   ASSERT_EQ(edges.size(), 2U);
-  for (const UprightEdge& edge : edges) EXPECT_NEAR(edge.lean, kRoll, 0.003);
+  for (const UprightEdge& edge : edges) {
+    EXPECT_NEAR(edge.lean / BearingImage::kRowPixels, kRoll, 0.003);
+  }
 }
 
 }  // namespace

@@ -27,27 +27,27 @@ TEST_F(EdgeExtractionTest, AStripeHasTwoEdgesFromLeftToRight) {
 
 TEST_F(EdgeExtractionTest, AnEdgeThroughTheWholeRegionHasTheFullWeight) {
   const ImageEdge edge = Extract({{100, 400, 0, 239, 60.0}}).at(0);
-  EXPECT_EQ(edge.top, kTop);
-  EXPECT_EQ(edge.bottom, kBottom);
-  EXPECT_EQ(edge.strength, 2.0 * 99.0);
-  EXPECT_NEAR(edge.weight, 0.99, 1e-12);
+  EXPECT_EQ(edge.top, kTop / kRow);
+  EXPECT_EQ(edge.bottom, kBottom / kRow);
+  EXPECT_EQ(edge.strength, 2.0 * (100.0 - kRow));
+  EXPECT_NEAR(edge.weight, 0.96, 1e-12);
 }
 
 TEST_F(EdgeExtractionTest, TheWeightIsTheShareOfTheRegion) {
   const ImageEdge edge = Extract({{100, 400, 80, 119, 60.0}}).at(0);  // 40 of 100 rows
-  EXPECT_NEAR(edge.weight, 0.4, 0.03);
-  EXPECT_NEAR(edge.top, 80, 1);
-  EXPECT_NEAR(edge.bottom, 119, 1);
+  EXPECT_NEAR(edge.weight, 0.4, 0.05);
+  EXPECT_NEAR(edge.top, 80 / kRow, 1);
+  EXPECT_NEAR(edge.bottom, 119 / kRow, 1);
 }
 
 TEST_F(EdgeExtractionTest, WhatIsAboveOrBelowTheRegionIsNotSeen) {
-  EXPECT_TRUE(Extract({{100, 400, 10, kTop - 4, 60.0}}).empty());
-  EXPECT_TRUE(Extract({{100, 400, kBottom + 4, 220, 60.0}}).empty());
+  EXPECT_TRUE(Extract({{100, 400, 10, kTop - 1 - kRow, 60.0}}).empty());
+  EXPECT_TRUE(Extract({{100, 400, kBottom + 1 + kRow, 220, 60.0}}).empty());
   EXPECT_EQ(Extract({{100, 400, kTop, kTop + 46, 60.0}}).size(), 1U);
 }
 
 TEST_F(EdgeExtractionTest, ColumnsOutsideTheRegionAreNotSeen) {
-  for (int c = 90; c <= 110; ++c) region_.bottom[c] = kTop - 1;
+  for (int c = 90; c <= 110; ++c) region_.bottom[c] = kTop / kRow - 1;
   const std::vector<ImageEdge> edges = Extract({{100, 130, 0, 239, 60.0}});
   ASSERT_EQ(edges.size(), 1U);
   EXPECT_NEAR(edges[0].column, 130.0, 0.1);
@@ -60,10 +60,10 @@ TEST_F(EdgeExtractionTest, WithoutARegionThereIsNothing) {
 }
 
 TEST_F(EdgeExtractionTest, AnEdgeMustBeLongEnoughInMetres) {
-  // 20 rows are 0.2 m at 3 m, and 0.13 m at 2 m.
+  // 20 rows are 0.2 m at 3 m, and 0.1 m at 1.5 m.
   const std::vector<Patch> poster{{100, 400, 90, 109, 60.0}};
   EXPECT_EQ(Extract(poster).size(), 1U);
-  SetSurface(2.0);
+  SetSurface(1.5);
   EXPECT_TRUE(Extract(poster).empty());
 }
 
@@ -92,9 +92,10 @@ TEST_F(EdgeExtractionTest, ASlantedEdgeIsLessSureOfItsColumn) {
     slanted.push_back({120.0 - 0.03 * i, 400, kTop + i, kTop + i, 60.0});
   }
   const ImageEdge straight = Extract({{100, 400, 0, 239, 60.0}}).at(0);
-  EXPECT_NEAR(straight.column_stddev, 0.2, 0.02);
-  EXPECT_NEAR(Extract(slanted).at(0).column_stddev, std::hypot(0.2, 0.5 * 3.0 / std::sqrt(12.0)),
-              0.05);
+  const ImageEdge leaning = Extract(slanted).at(0);
+  EXPECT_LT(straight.column_stddev, 0.05);
+  EXPECT_GT(leaning.column_stddev, 2.0 * straight.column_stddev);
+  EXPECT_NEAR(leaning.column, 118.5, 0.3);
 }
 
 TEST_F(EdgeExtractionTest, FainterEdgesHaveLessContrast) {
@@ -114,7 +115,7 @@ TEST_F(EdgeExtractionTest, AnEdgeLiesOnASurfaceWhenAnyLengthWillDo) {
     const ImageEdge edge = ExtractEdges(picture, image_, profile_, region_, options).at(0);
     for (int c = static_cast<int>(edge.column) + 1; c < image_.columns(); ++c) {
       profile_.columns[c] = {};
-      region_.bottom[c] = kTop - 1;
+      region_.bottom[c] = kTop / kRow - 1;
     }
     for (const ImageEdge& e : ExtractEdges(picture, image_, profile_, region_, options)) {
       EXPECT_GE(profile_.columns[std::lround(e.column)].beam, 0) << e.column;

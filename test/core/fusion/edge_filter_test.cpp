@@ -22,7 +22,10 @@ cv::Mat Drawn(const std::vector<std::string>& rows) {
 }
 
 std::vector<EdgeChain> Follow(const std::vector<std::string>& rows) {
-  return FollowChains(Drawn(rows));
+  EdgePixels edges;
+  edges.sign = Drawn(rows);
+  edges.gradient = cv::Mat(edges.sign.size(), CV_16S, cv::Scalar(50));
+  return FollowChains(edges, /*threshold=*/20.0);
 }
 
 EdgeChain FollowOne(const std::vector<std::string>& rows) {

@@ -59,33 +59,36 @@ TEST(FindEdgePixels, AStepIsOnePixelWideAndHasTheSignOfWhatIsOnItsRight) {
 }
 
 TEST(FindEdgePixels, AStepFarBelowTheThresholdIsNone) {
-  EXPECT_EQ(cv::countNonZero(FindEdgePixels(Step(100, 114), 20.0).sign), 0);
-  EXPECT_EQ(Count(FindEdgePixels(Step(100, 114), 8.0).sign, 1), kRows);
+  EXPECT_EQ(cv::countNonZero(FindEdgePixels(Step(100, 106), 20.0).sign), 0);
+  EXPECT_EQ(Count(FindEdgePixels(Step(100, 106), 8.0).sign, 1), kRows);
 }
 
-TEST(FindEdgePixels, AFaintPartOfAStrongEdgeBelongsToIt) {
+TEST(FollowChains, AChainNeedsAStepAboveTheThreshold) {
+  EXPECT_EQ(FollowChains(FindEdgePixels(Step(100, 114), 20.0), 20.0).size(), 0U);
+  EXPECT_EQ(FollowChains(FindEdgePixels(Step(100, 122), 20.0), 20.0).size(), 1U);
+}
+
+TEST(FollowChains, AFaintPartOfAStrongEdgeBelongsToIt) {
   cv::Mat grey = Step(100, 160);
   for (int y = 0; y < kRows; ++y) {  // a step of 60 at the top, of 14 at the bottom
     grey(cv::Range(y, y + 1), cv::Range(kStep, kColumns)).setTo(160 - 46 * y / (kRows - 1));
   }
-  EXPECT_NEAR(EdgeColumn(FindEdgePixels(grey, 20.0).sign, kRows - 1), kStep - 0.5, 0.5);
+  const std::vector<EdgeChain> chains = FollowChains(FindEdgePixels(grey, 20.0), 20.0);
+  ASSERT_EQ(chains.size(), 1U);
+  EXPECT_EQ(chains[0].pixels.size(), static_cast<std::size_t>(kRows));
 }
 
 TEST(FindEdgePixels, AnEvenPictureHasNone) {
   EXPECT_EQ(cv::countNonZero(FindEdgePixels(Step(128, 128), 1.0).sign), 0);
 }
 
-TEST(FindEdgePixels, TheGradientOfARampIsEightTimesItsSlope) {
+TEST(FindEdgePixels, TheGradientOfARampIsTwiceItsSlope) {
   cv::Mat grey(kRows, kColumns, CV_8U);
   for (int x = 0; x < kColumns; ++x) grey.col(x).setTo(5 * x);
   const EdgePixels edges = FindEdgePixels(grey, 20.0);
   for (int x = 3; x < kColumns - 3; ++x) {
-    EXPECT_EQ(edges.gradient.at<std::int16_t>(kRows / 2, x), 8 * 5);
+    EXPECT_EQ(edges.gradient.at<std::int16_t>(kRows / 2, x), 2 * 5);
   }
-}
-
-TEST(FindEdgePixels, AStepJustAboveTheThresholdIsAnEdge) {
-  EXPECT_EQ(Count(FindEdgePixels(Step(100, 122), 20.0).sign, 1), kRows);
 }
 
 /// How far off the column of a blurred edge is, at worst over its places within a pixel.

@@ -19,6 +19,9 @@ inline EdgeExtractionOptions ExtractionOptions() {
   return options;
 }
 
+/// Rows below are counted in pixels of the camera, of which a row of the bearing image has several.
+constexpr int kRow = BearingImage::kRowPixels;
+
 /// Paint in a bearing image: rows [top, bottom] and columns [left, right) in its grey.
 struct Patch {
   double left;
@@ -36,22 +39,22 @@ class PaintedCylinder : public ::testing::Test {
     SetRegion(60, 159);
   }
 
-  /// The same rows [top, bottom] in all columns.
+  /// The same rows [top, bottom] in all columns, whole ones of the bearing image.
   void SetRegion(int top, int bottom) {
-    region_.top.assign(image_.columns(), top);
-    region_.bottom.assign(image_.columns(), bottom);
-    region_.begin = top;
-    region_.end = bottom + 1;
+    region_.top.assign(image_.columns(), top / kRow);
+    region_.bottom.assign(image_.columns(), bottom / kRow);
+    region_.begin = top / kRow;
+    region_.end = bottom / kRow + 1;
   }
 
   void SetSurface(double distance) { profile_.columns.assign(image_.columns(), {distance, 0}); }
 
-  /// `grey(column, row)` is the paint at a place of the bearing image.
+  /// `grey(column, row)` is the paint at a column of the bearing image and a row of pixels.
   template <typename Grey>
   std::vector<ImageEdge> ExtractFrom(const Grey& grey, const EdgeExtractionOptions& options) const {
     const auto shade = [&](const Eigen::Vector3d&, const Eigen::Vector3d& ray) {
       return grey(image_.Column(std::atan2(ray.y(), ray.x())),
-                  image_.Row(ray.z() / std::hypot(ray.x(), ray.y())));
+                  kRow * image_.Row(ray.z() / std::hypot(ray.x(), ray.y())) + 0.5 * (kRow - 1));
     };
     const cv::Mat picture = RenderPicture(PinholeCamera(), CameraView().FromOptical(), shade);
     return ExtractEdges(picture, image_, profile_, region_, options);

@@ -66,8 +66,8 @@ TEST(RegionOfInterest, IsTheBandAroundTheLasersLine) {
   for (const double distance : {2.5, 4.0}) {
     const RegionOfInterest region = RegionAt(distance, 0.2, 0.3);
     for (int c = 0; c < image.columns(); ++c) {
-      EXPECT_NEAR(image.Slope(region.top[c]), -0.4 / distance, image.step()) << c;
-      EXPECT_NEAR(image.Slope(region.bottom[c]), -0.9 / distance, image.step()) << c;
+      EXPECT_NEAR(image.Slope(region.top[c]), -0.4 / distance, image.row_step()) << c;
+      EXPECT_NEAR(image.Slope(region.bottom[c]), -0.9 / distance, image.row_step()) << c;
     }
   }
 }
@@ -78,8 +78,8 @@ TEST(RegionOfInterest, FollowsTheSurfaceColumnByColumn) {
   profile.columns[100].distance = 2.5;
   const RegionOfInterest region =
       MakeRegionOfInterest(profile, image, kLaserHeight, Reaching(0.2, 0.3));
-  EXPECT_NEAR(image.Slope(region.top[99]), -0.1, image.step());
-  EXPECT_NEAR(image.Slope(region.top[100]), -0.16, image.step());
+  EXPECT_NEAR(image.Slope(region.top[99]), -0.1, image.row_step());
+  EXPECT_NEAR(image.Slope(region.top[100]), -0.16, image.row_step());
   EXPECT_EQ(region.begin, region.top[99]);
   EXPECT_EQ(region.end, region.bottom[100] + 1);
 }

@@ -10,7 +10,6 @@ namespace scan_image_slam {
 namespace {
 
 const Pose2 kOrigin;
-const Eigen::Matrix3d kExact = Eigen::Matrix3d::Zero();
 
 MotionPrediction Predicted(const Pose2& motion) {
   MotionPrediction prediction;
@@ -36,7 +35,7 @@ double Knowledge(const LocalMapMatcher& matcher) {
 /// Matches a scan at a pose that was predicted rightly; true if it entered the map.
 bool Enters(LocalMapMatcher* matcher, const Pose2& pose) {
   const double before = Knowledge(*matcher);
-  matcher->Match(SeenFrom(pose), kOrigin, kExact, Predicted(pose));
+  matcher->Match(SeenFrom(pose), kOrigin, Predicted(pose));
   return Knowledge(*matcher) > before;
 }
 
@@ -77,7 +76,7 @@ TEST(LocalMapGrowth, LeavesOutAScanWhosePredictionWasOffByMoreThanTheWindow) {
   LocalMapMatcher matcher = Started(10);
   const double before = Knowledge(matcher);
   const MatchOutcome outcome =
-      matcher.Match(SeenFrom(kOrigin), kOrigin, kExact, Predicted({0.0, 0.0, 0.08}));
+      matcher.Match(SeenFrom(kOrigin), kOrigin, Predicted({0.0, 0.0, 0.08}));
   EXPECT_TRUE(outcome.on_window_edge);
   EXPECT_EQ(Knowledge(matcher), before);
 }
@@ -93,7 +92,7 @@ TEST(LocalMapGrowth, LeavesOutAScanThatShowsTooLittleOfTheMap) {
     matcher.Start(ModelOf(known, kOrigin, 0, TestLaser()), kOrigin);
     const double before = Knowledge(matcher);
     const MatchOutcome outcome =
-        matcher.Match(ModelOf(both, kOrigin, 1, TestLaser()), kOrigin, kExact, Predicted(kOrigin));
+        matcher.Match(ModelOf(both, kOrigin, 1, TestLaser()), kOrigin, Predicted(kOrigin));
     EXPECT_EQ(2 * outcome.matched, outcome.points);
     EXPECT_EQ(Knowledge(matcher) > before, fraction < 0.5);
   }
@@ -110,7 +109,7 @@ TEST(LocalMapGrowth, PlacesTheScanWhereItWasFound) {
   matcher.Start(ModelOf(wall, kOrigin, 0, short_sighted), kOrigin);
   const std::size_t size = matcher.local_map().elements().size();
   const Pose2 pose{0.0, 0.4, 0.2};
-  matcher.Match(ModelOf(wall, pose, 1, short_sighted), kOrigin, kExact,
+  matcher.Match(ModelOf(wall, pose, 1, short_sighted), kOrigin,
                 Predicted(pose * Pose2{0.02, -0.01, 0.02}));
   EXPECT_GT(matcher.local_map().elements().size(), size);
   for (const SurfaceElement& e : matcher.local_map().elements()) {

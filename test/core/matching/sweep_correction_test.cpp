@@ -10,7 +10,6 @@ namespace scan_image_slam {
 namespace {
 
 const Pose2 kOrigin;
-const Eigen::Matrix3d kExact = Eigen::Matrix3d::Zero();
 
 MotionPrediction Predicted(const Pose2& motion) {
   MotionPrediction prediction;
@@ -44,7 +43,7 @@ MatchOutcome MatchBlindEncoders(double first, const Velocity2& velocity) {
   matcher.Start(ModelOf(kSymmetricRoom, kOrigin, 0, TestLaser()), kOrigin);
   return matcher.Match(
       ModelOf(kSymmetricRoom, Move(velocity, 0.05), 1, SweepingLaser(first, velocity)), kOrigin,
-      kExact, Predicted(kOrigin));
+      Predicted(kOrigin));
 }
 
 TEST(SweepCorrection, IsNoneIfTheEncodersAreRight) {
@@ -55,7 +54,7 @@ TEST(SweepCorrection, IsNoneIfTheEncodersAreRight) {
   laser.assumed_velocity = velocity;
   const Pose2 motion = Move(velocity, 0.05);
   const MatchOutcome outcome =
-      matcher.Match(ModelOf(SeparateWalls(), motion, 1, laser), kOrigin, kExact, Predicted(motion));
+      matcher.Match(ModelOf(SeparateWalls(), motion, 1, laser), kOrigin, Predicted(motion));
   EXPECT_EQ(outcome.sweep_correction.x, 0.0);
   EXPECT_EQ(outcome.sweep_correction.theta, 0.0);
   EXPECT_NEAR(outcome.deviation.angle, 0.0, 1e-5);
@@ -103,7 +102,7 @@ MatchOutcome MatchWithoutEncoders(const Velocity2& velocity, const Velocity2& as
   const Pose2 motion = Move(velocity, 0.05);
   MotionPrediction prediction = Predicted(motion);
   prediction.from_encoders = false;
-  return matcher.Match(ModelOf(SeparateWalls(), motion, 1, laser), kOrigin, kExact, prediction);
+  return matcher.Match(ModelOf(SeparateWalls(), motion, 1, laser), kOrigin, prediction);
 }
 
 TEST(SweepCorrection, IsThePredictedVelocityWithoutEncoders) {

@@ -77,7 +77,7 @@ TEST_F(NewOptionsOfTheMatching, AreAllTakenOrNone) {
   Match();
   const double before = Match().window.half_distance;
   options_.prediction.bounds.min_distance = 0.4;
-  options_.local_map_matcher.edge_map.gate = -1.0;
+  options_.local_map_matcher.filter.edges.gate = -1.0;
   EXPECT_THROW(bounded_icp_.SetOptions(options_), std::invalid_argument);
   EXPECT_NEAR(Match().window.half_distance, before, 1e-9);
 }

@@ -25,7 +25,7 @@ struct ImageEdge {
   double column = 0.0;         ///< [px]
   double column_stddev = 0.0;  ///< [px]
   int sign = 0;                ///< +1: darker on the left; -1: darker on the right
-  double strength = 0.0;       ///< accumulated by eq. 1; about twice the rows of vertical edge
+  double strength = 0.0;       ///< accumulated by eq. 1; about twice the rows of vertical edge [px]
   double weight = 0.0;         ///< share of the rows of the region of interest in this column [-]
   double contrast = 0.0;       ///< step at the edge [grey levels]
   int top = 0;                 ///< first and last row of the edge in the bearing image

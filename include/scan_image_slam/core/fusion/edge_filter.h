@@ -34,23 +34,22 @@ struct EdgeChain {
   double Strength() const { return accumulated.Vertical(); }
 };
 
-/// Horizontal gradient at a step of one grey level: Sobel's kernel makes 4 of it, and the blur
-/// before it leaves three quarters.
-constexpr double kStepGain = 3.0;
-
-/// Thin edges of an image with the gradient that made them.
+/// Thin vertical edges of an image with the gradient that made them.
 struct EdgePixels {
-  cv::Mat sign;      ///< CV_8S: +1 or -1 on an edge pixel (see EdgeChain::sign), 0 elsewhere
-  cv::Mat gradient;  ///< CV_16S: horizontal gradient, Sobel's [grey levels * 4]
+  cv::Mat sign;  ///< CV_8S: +1 or -1 on an edge pixel (see EdgeChain::sign), 0 elsewhere
+  cv::Mat
+      gradient;  ///< CV_16S: difference of the pixels on the right and on the left [grey levels]
 };
 
-/// Edge pixels by Canny's method. `threshold` is the grey level step that makes an edge.
+/// Edge pixels: where the gradient is greater than in the same row beside it, and what makes up
+/// half of a step of `threshold` [grey levels].
 EdgePixels FindEdgePixels(const cv::Mat& grey, double threshold);
 
 /// The filter of section 2.1: starts at every edge pixel not visited yet, steps on to the neighbour
 /// of the same sign in the direction that holds most, until none follows, and accumulates
-/// H = sum w_i h_i on the way (eq. 1). `sign` is CV_8S as in EdgePixels.
-std::vector<EdgeChain> FollowChains(const cv::Mat& sign);
+/// H = sum w_i h_i on the way (eq. 1). A chain counts if a step of `threshold` [grey levels] is
+/// somewhere on it: a faint part of a strong edge belongs to it.
+std::vector<EdgeChain> FollowChains(const EdgePixels& edges, double threshold);
 
 /// Column of the edge at a pixel, below the pixel: the vertex of the parabola through the gradients
 /// of the pixel and its two neighbours in the row.

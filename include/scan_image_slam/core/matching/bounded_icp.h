@@ -42,6 +42,9 @@ class BoundedIcp {
   /// Matches the next model. Throws std::invalid_argument if its stamp is not later than the last.
   MatchedMotion Match(const FusedModel& model);
 
+  /// What the matching with the local map has learned of encoders and camera.
+  LearnedCalibration learned() const { return local_map_matcher_.filter().learned(); }
+
   /// From the next model on: bounds and noise of the motion, search, edges, refinement. What was
   /// seen stays, and with it the reference, the laser's noise, the surface elements and the limits
   /// of the odometry, until Reset. Throws std::invalid_argument, and changes nothing, if a value is

@@ -4,12 +4,12 @@
 #include "scan_image_slam/core/matching/local_map.h"
 #include "scan_image_slam/core/matching/match_outcome.h"
 #include "scan_image_slam/core/matching/motion_predictor.h"
+#include "scan_image_slam/core/matching/pose_filter.h"
 #include "scan_image_slam/core/matching/refinement.h"
 #include "scan_image_slam/core/matching/surface.h"
 
+#include <optional>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace scan_image_slam {
 
@@ -20,7 +20,7 @@ struct LocalMapMatcherOptions {
   RangeNoise noise;
   SurfaceOptions surface;
   LocalMapOptions local_map;
-  EdgeMapOptions edge_map;
+  PoseFilterOptions filter;
   RefinementOptions refinement;
   double prior_kernel = 5.0;      ///< see MotionPrior [-]
   double insert_distance = 0.05;  ///< from the last scan that entered the map [m]
@@ -33,7 +33,8 @@ struct LocalMapMatcherOptions {
   void Validate() const;
 };
 
-/// Matches scans with everything seen so far: exhaustive search in the window, then refinement.
+/// Matches scans with everything seen so far: exhaustive search in the window, then refinement, and
+/// a filter that adds what encoders and images tell.
 class LocalMapMatcher {
  public:
   explicit LocalMapMatcher(const LocalMapMatcherOptions& options);
@@ -45,26 +46,29 @@ class LocalMapMatcher {
   void Start(const FusedModel& model, const Pose2& map_from_base);
 
   /// Finds the motion since `map_from_last`, and adds the scan to the map if the base has moved.
-  /// `covariance` is that of the pose before the motion.
   MatchOutcome Match(const FusedModel& model, const Pose2& map_from_last,
-                     const Eigen::Matrix3d& covariance, const MotionPrediction& prediction);
+                     const MotionPrediction& prediction);
 
   const LocalMap& local_map() const { return local_map_; }
-  const EdgeMap& edge_map() const { return edge_map_; }
+  const PoseFilter& filter() const { return filter_; }
 
  private:
   SearchResult Search(const std::vector<SurfacePoint>& points, const Pose2& map_from_predicted,
                       const MotionPrediction& prediction) const;
+  void Filter(const Refinement& scan, const std::vector<ModelEdge>& edges,
+              const Pose2& map_from_last, const MotionPrediction& prediction);
+  bool EdgesHold() const;
   void ForgetOldSurroundings();
   void InsertIfMoved(const std::vector<SurfacePoint>& points, const Pose2& map_from_base);
 
   LocalMapMatcherOptions options_;
   LocalMap local_map_;
-  EdgeMap edge_map_;
+  PoseFilter filter_;
   Pose2 map_from_inserted_;
   int inserted_ = 0;
-  int unmatched_ = 0;  ///< scans since the last that showed something known
-  double way_ = 0.0;   ///< driven so far [m]
+  int unmatched_ = 0;                   ///< scans since the last that showed something known
+  double way_ = 0.0;                    ///< driven so far [m]
+  std::optional<double> way_at_edges_;  ///< when an image told something the last time
   double way_at_forgetting_ = 0.0;
 };
 

@@ -40,7 +40,10 @@ struct Refinement {
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  ///< of (forward, left, turn) in the base frame [m, m, rad]
   Eigen::Matrix3d information =
-      Eigen::Matrix3d::Zero();        ///< of scan and edges without the prior, of the same three
+      Eigen::Matrix3d::Zero();  ///< of scan and edges without the prior, of the same three
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< of their cost, at `linearised_at`
+  Pose2 linearised_at;                ///< no more than a last small step away from the result
+  double prior_weight = 1.0;          ///< what the kernel has left of the prior [-]
   int matched = 0;                    ///< points that found an element
   int matched_edges = 0;              ///< edges that found a landmark
   double rms = 0.0;                   ///< weighted residual across the walls [m]

@@ -31,6 +31,7 @@ class SlamPipeline {
 
   ScanImageFusion& fusion() { return fusion_; }
   Mapper& mapper() { return mapper_; }
+  const BoundedIcp& bounded_icp() const { return bounded_icp_; }
   const LoopCloser& loop_closer() const { return back_end_.loop_closer(); }
 
   /// Takes up a map that was saved; see Mapper::Load.

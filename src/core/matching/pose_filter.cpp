@@ -1,0 +1,252 @@
+#include "scan_image_slam/core/matching/pose_filter.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/Eigenvalues>
+
+namespace scan_image_slam {
+namespace {
+
+constexpr double kScaleWalk = 3e-4;        // how the scale changes: loads, floors [1/sqrt(m)]
+constexpr double kGate = 3.0;              // farther off is no measurement of it [std. deviations]
+constexpr std::size_t kMostEdges = 40;     // at once; more would tell nothing new
+constexpr double kLeastInformation = 1.0;  // of a direction [1/m^2, 1/rad^2]
+
+Eigen::Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+Eigen::Vector2d Across(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
+
+/// From (forward, left, turn) of the base to (x, y, turn) of the map.
+Eigen::Matrix3d MapFromBase(double heading) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(heading).toRotationMatrix();
+  return rotation;
+}
+
+}  // namespace
+
+void PoseFilterOptions::Validate() const {
+  edges.Validate();
+  const auto require = [](bool ok, const char* what) {
+    if (!ok) throw std::invalid_argument(what);
+  };
+  require(edge_correlation >= 1.0, "edge_correlation must be at least 1");
+  require(scale_stddev >= 0.0, "scale_stddev must not be negative");
+  require(camera_yaw_stddev >= 0.0, "camera_yaw_stddev must not be negative");
+  require(keep_distance > 0.0, "keep_distance must be positive");
+}
+
+PoseFilter::PoseFilter(const PoseFilterOptions& options) : options_(options) {
+  options_.Validate();
+  Start(Pose2());
+}
+
+void PoseFilter::Start(const Pose2& map_from_base) {
+  map_from_base_ = map_from_base;
+  state_ = Eigen::VectorXd::Zero(kFirstEdge);
+  state_[kScale] = 1.0;
+  covariance_ = Eigen::MatrixXd::Zero(kFirstEdge, kFirstEdge);
+  covariance_(kScale, kScale) = options_.scale_stddev * options_.scale_stddev;
+  covariance_(kYaw, kYaw) = options_.camera_yaw_stddev * options_.camera_yaw_stddev;
+  tracks_.clear();
+}
+
+void PoseFilter::Predict(const Pose2& map_from_last, const MotionPrediction& prediction,
+                         const Eigen::Matrix3d& covariance) {
+  const Pose2& motion = prediction.motion;
+  const double scale = prediction.from_encoders ? this->scale() : 1.0;
+  const Eigen::Matrix3d map_from_base = MapFromBase(map_from_last.theta);
+  const Eigen::Vector2d way = map_from_base.topLeftCorner<2, 2>() * motion.translation();
+  // The motion turns with the error of the heading and grows with that of the scale.
+  Eigen::Matrix2d by_turn_and_scale = Eigen::Matrix2d::Zero();
+  by_turn_and_scale.col(0) = scale * Across(way);
+  if (prediction.from_encoders) by_turn_and_scale.col(1) = way;
+  covariance_.topRows<2>() += (by_turn_and_scale * covariance_.middleRows<2>(2)).eval();
+  covariance_.leftCols<2>() +=
+      (covariance_.middleCols<2>(2) * by_turn_and_scale.transpose()).eval();
+  covariance_.topLeftCorner<3, 3>() += map_from_base * covariance * map_from_base.transpose();
+  const double driven = scale * way.norm();
+  covariance_(kScale, kScale) += kScaleWalk * kScaleWalk * driven;
+  map_from_base_ = map_from_last * Pose2{scale * motion.x, scale * motion.y, motion.theta};
+  way_ += driven;
+  ForgetOld();
+}
+
+void PoseFilter::DoubtWay(double stddev) {
+  const Eigen::Vector2d along = Direction(map_from_base_.theta);
+  covariance_.topLeftCorner<2, 2>() += stddev * stddev * along * along.transpose();
+}
+
+void PoseFilter::AddScan(const Pose2& map_from_base, const Eigen::Matrix3d& information,
+                         const Eigen::Vector3d& gradient) {
+  // In its own directions the scan measures three numbers that have nothing to do with each other.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
+  const Eigen::Matrix3d rotation = MapFromBase(map_from_base.theta);
+  for (int i = 0; i < 3; ++i) {
+    const double amount = eigen.eigenvalues()[i];
+    if (amount < kLeastInformation) continue;
+    const Eigen::Vector3d direction = eigen.eigenvectors().col(i);
+    const Pose2 off = map_from_base.Inverse() * map_from_base_;
+    const double here = direction.dot(Eigen::Vector3d(off.x, off.y, off.theta));
+    const double best = -direction.dot(gradient) / amount;
+    Eigen::VectorXd jacobian = Eigen::VectorXd::Zero(state_.size());
+    jacobian.head<3>() = rotation * direction;
+    Update(best - here, 1.0 / amount, jacobian);
+  }
+}
+
+bool PoseFilter::Contradicts(const std::vector<ModelEdge>& edges) const {
+  int known = 0;
+  int off = 0;
+  for (const ModelEdge& edge : edges) {
+    const int track = Nearest(edge, options_.edges.gate);
+    if (track < 0) continue;
+    const Sight sight = SightOf(edge, track);
+    ++known;
+    if (std::abs(sight.innovation) > kGate * std::sqrt(VarianceOf(sight))) ++off;
+  }
+  return known >= 2 && 2 * off > known;
+}
+
+int PoseFilter::AddEdges(const std::vector<ModelEdge>& edges) {
+  // All are assigned before the first moves the pose.
+  std::vector<std::pair<const ModelEdge*, int>> known;
+  std::vector<const ModelEdge*> unknown;
+  for (const ModelEdge& edge : edges) {
+    const int track = Nearest(edge, options_.edges.gate);
+    if (track >= 0) {
+      known.emplace_back(&edge, track);
+    } else if (Nearest(edge, options_.edges.min_separation) < 0) {
+      unknown.push_back(&edge);
+    }
+  }
+  int used = 0;
+  for (const auto& [edge, track] : known) {
+    const Sight sight = SightOf(*edge, track);
+    if (std::abs(sight.innovation) > kGate * std::sqrt(VarianceOf(sight))) continue;
+    Update(sight.innovation, sight.variance, sight.jacobian);
+    tracks_[track].last_seen = way_;
+    ++used;
+  }
+  for (const ModelEdge* edge : unknown) {
+    if (tracks_.size() < kMostEdges) Begin(*edge);
+  }
+  return used;
+}
+
+Eigen::Matrix3d PoseFilter::PoseCovariance() const {
+  const Eigen::Matrix3d rotation = MapFromBase(map_from_base_.theta);
+  return rotation.transpose() * covariance_.topLeftCorner<3, 3>() * rotation;
+}
+
+LearnedCalibration PoseFilter::learned() const {
+  return {scale(), camera_yaw(), std::sqrt(covariance_(kYaw, kYaw))};
+}
+
+/// Where an edge is in the map, by the laser's range.
+Eigen::Vector2d PoseFilter::PlaceOf(const ModelEdge& edge) const {
+  return map_from_base_ *
+         Eigen::Vector2d(edge.camera + edge.range * Direction(edge.bearing + camera_yaw()));
+}
+
+int PoseFilter::Nearest(const ModelEdge& edge, double reach) const {
+  const Eigen::Vector2d place = PlaceOf(edge);
+  int nearest = -1;
+  for (int i = 0; i < static_cast<int>(tracks_.size()); ++i) {
+    const double distance = (PlaceOf(i) - place).norm();
+    if (tracks_[i].sign != edge.sign || distance >= reach) continue;
+    reach = distance;
+    nearest = i;
+  }
+  return nearest;
+}
+
+/// The image measures the bearing of the edge from the camera.
+PoseFilter::Sight PoseFilter::SightOf(const ModelEdge& edge, int track) const {
+  const Eigen::Vector2d camera = map_from_base_ * edge.camera;
+  const Eigen::Vector2d ray = PlaceOf(track) - camera;
+  const double range = ray.norm();
+  const Eigen::Vector2d across = Across(ray / range);
+  const Eigen::Vector2d arm = camera - map_from_base_.translation();
+  Sight sight;
+  sight.innovation = NormalizeAngle(edge.bearing + camera_yaw() + map_from_base_.theta -
+                                    std::atan2(ray.y(), ray.x()));
+  sight.variance = options_.edge_correlation * edge.bearing_stddev * edge.bearing_stddev;
+  sight.jacobian = Eigen::VectorXd::Zero(state_.size());
+  sight.jacobian.head<2>() = -across / range;
+  sight.jacobian[2] = -across.dot(Across(arm)) / range - 1.0;
+  sight.jacobian[kYaw] = -1.0;
+  sight.jacobian.segment<2>(IndexOf(track)) = across / range;
+  return sight;
+}
+
+double PoseFilter::VarianceOf(const Sight& sight) const {
+  return sight.jacobian.dot(covariance_ * sight.jacobian) + sight.variance;
+}
+
+void PoseFilter::Update(double innovation, double variance, const Eigen::VectorXd& jacobian) {
+  const Eigen::VectorXd cross = covariance_ * jacobian;
+  const Eigen::VectorXd gain = cross / (jacobian.dot(cross) + variance);
+  covariance_ -= gain * cross.transpose();
+  state_ += innovation * gain;
+  map_from_base_ = Pose2{map_from_base_.x + state_[0], map_from_base_.y + state_[1],
+                         NormalizeAngle(map_from_base_.theta + state_[2])};
+  state_.head<3>().setZero();
+}
+
+/// A new edge is where the laser's range puts it, and as wrong as the pose and the camera's yaw.
+void PoseFilter::Begin(const ModelEdge& edge) {
+  const int size = static_cast<int>(state_.size());
+  const Eigen::Vector2d place = PlaceOf(edge);
+  const Eigen::Vector2d ray = (place - map_from_base_ * edge.camera).normalized();
+  const Eigen::Vector2d across = Across(ray);
+  const Eigen::Vector2d arm = place - map_from_base_.translation();
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(2, size);
+  jacobian.leftCols<2>().setIdentity();
+  jacobian(0, 2) = -arm.y();
+  jacobian(1, 2) = arm.x();
+  jacobian.col(kYaw) = edge.range * across;
+  const double along_variance =
+      std::pow(edge.range_stddev, 2) + std::pow(options_.edges.surface_stddev, 2);
+  const double across_variance =
+      options_.edge_correlation * std::pow(edge.bearing_stddev * edge.range, 2);
+
+  Eigen::MatrixXd covariance(size + 2, size + 2);
+  covariance.topLeftCorner(size, size) = covariance_;
+  covariance.bottomLeftCorner(2, size) = jacobian * covariance_;
+  covariance.topRightCorner(size, 2) = covariance.bottomLeftCorner(2, size).transpose();
+  covariance.bottomRightCorner<2, 2>() = jacobian * covariance_ * jacobian.transpose() +
+                                         along_variance * ray * ray.transpose() +
+                                         across_variance * across * across.transpose();
+  covariance_ = covariance;
+  state_.conservativeResize(size + 2);
+  state_.tail<2>() = place;
+  tracks_.push_back({edge.sign, way_});
+}
+
+/// What has been out of view for a while leaves the filter.
+void PoseFilter::ForgetOld() {
+  std::vector<int> kept;
+  for (int i = 0; i < kFirstEdge; ++i) kept.push_back(i);
+  std::vector<Track> tracks;
+  for (int i = 0; i < static_cast<int>(tracks_.size()); ++i) {
+    if (tracks_[i].last_seen < way_ - options_.keep_distance) continue;
+    kept.push_back(IndexOf(i));
+    kept.push_back(IndexOf(i) + 1);
+    tracks.push_back(tracks_[i]);
+  }
+  if (tracks.size() == tracks_.size()) return;
+  const int size = static_cast<int>(kept.size());
+  Eigen::VectorXd state(size);
+  Eigen::MatrixXd covariance(size, size);
+  for (int i = 0; i < size; ++i) {
+    state[i] = state_[kept[i]];
+    for (int j = 0; j < size; ++j) covariance(i, j) = covariance_(kept[i], kept[j]);
+  }
+  state_ = state;
+  covariance_ = covariance;
+  tracks_ = tracks;
+}
+
+}  // namespace scan_image_slam
