@@ -19,6 +19,7 @@ VerticalEdge ToMessage(const ModelEdge& edge) {
   message.bearing_stddev = edge.bearing_stddev;
   message.range = edge.range;
   message.range_stddev = edge.range_stddev;
+  message.range_by_bearing = edge.range_by_bearing;
   message.time_offset = edge.time_offset;
   message.sign = static_cast<std::int8_t>(edge.sign);
   message.weight = edge.weight;
@@ -33,6 +34,7 @@ ModelEdge FromMessage(const VerticalEdge& message) {
   edge.bearing_stddev = message.bearing_stddev;
   edge.range = message.range;
   edge.range_stddev = message.range_stddev;
+  edge.range_by_bearing = message.range_by_bearing;
   edge.time_offset = message.time_offset;
   edge.sign = message.sign;
   edge.weight = message.weight;

@@ -202,6 +202,8 @@ std::optional<ModelEdge> ScanImageFusion::ToModelEdge(const ImageEdge& image_edg
   // How much of the wall a column shows: what is finer runs into one, and shifts the edge.
   const double footprint = bearing_image_->step() * slant;
   edge.range_stddev = std::sqrt(surface.line.variance) / std::abs(cosine);
+  const Eigen::Vector2d left(-ray.y(), ray.x());
+  edge.range_by_bearing = -edge.range * surface.line.normal.dot(left) / cosine;
   const Pose2 scan_from_image = ScanFromImage(model.stamp, image);
   edge.camera = scan_from_image * camera;
   edge.bearing = NormalizeAngle(bearing + scan_from_image.theta);

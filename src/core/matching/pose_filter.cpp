@@ -1,6 +1,7 @@
 #include "scan_image_slam/core/matching/pose_filter.h"
 
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -144,10 +145,11 @@ LearnedCalibration PoseFilter::learned() const {
   return {scale(), camera_yaw(), std::sqrt(covariance_(kYaw, kYaw))};
 }
 
-/// Where an edge is in the map, by the laser's range.
+/// Where an edge is in the map: on the surface that the laser sees at its bearing.
 Eigen::Vector2d PoseFilter::PlaceOf(const ModelEdge& edge) const {
   return map_from_base_ *
-         Eigen::Vector2d(edge.camera + edge.range * Direction(edge.bearing + camera_yaw()));
+         Eigen::Vector2d(edge.camera + (edge.range + edge.range_by_bearing * camera_yaw()) *
+                                           Direction(edge.bearing + camera_yaw()));
 }
 
 int PoseFilter::Nearest(const ModelEdge& edge, double reach) const {
@@ -206,7 +208,7 @@ void PoseFilter::Begin(const ModelEdge& edge) {
   jacobian.leftCols<2>().setIdentity();
   jacobian(0, 2) = -arm.y();
   jacobian(1, 2) = arm.x();
-  jacobian.col(kYaw) = edge.range * across;
+  jacobian.col(kYaw) = edge.range * across + edge.range_by_bearing * ray;
   const double along_variance =
       std::pow(edge.range_stddev, 2) + std::pow(options_.edges.surface_stddev, 2);
   const double across_variance =
@@ -227,8 +229,8 @@ void PoseFilter::Begin(const ModelEdge& edge) {
 
 /// What has been out of view for a while leaves the filter.
 void PoseFilter::ForgetOld() {
-  std::vector<int> kept;
-  for (int i = 0; i < kFirstEdge; ++i) kept.push_back(i);
+  std::vector<int> kept(kFirstEdge);
+  std::iota(kept.begin(), kept.end(), 0);
   std::vector<Track> tracks;
   for (int i = 0; i < static_cast<int>(tracks_.size()); ++i) {
     if (tracks_[i].last_seen < way_ - options_.keep_distance) continue;

@@ -109,6 +109,13 @@ TEST(PoseFilter, ADirectionWithoutInformationIsLeftToTheEncoders) {
   EXPECT_GT(std::sqrt(covariance(0, 0) / covariance(1, 1)), 10.0);
 }
 
+/// The range that the laser sees at a bearing on a wall along x, as the fusion gives it.
+void PutOnWall(double wall_y, const Pose2& map_from_base, ModelEdge* edge) {
+  const double heading = edge->bearing + map_from_base.theta;
+  edge->range = (wall_y - map_from_base.y) / std::sin(heading);
+  edge->range_by_bearing = -edge->range / std::tan(heading);
+}
+
 /// Drives along a corridor with edges every half metre on both walls; heading and the distance to
 /// the walls come from the laser, the way along from the camera alone.
 class CorridorDrive {
@@ -141,6 +148,7 @@ class CorridorDrive {
         if (x - truth.x < 1.5 || x - truth.x > 4.0) continue;
         edges.push_back(EdgeTo(place, truth, camera_yaw));
         edges.back().bearing += bearing_noise * normal_(random_);
+        PutOnWall(y, truth, &edges.back());
       }
     }
     if (filter_->Contradicts(edges)) filter_->DoubtWay(0.05);
@@ -196,6 +204,7 @@ TEST(PoseFilter, ContradictsOnlyIfMostOfTheEdgesAreElsewhere) {
   filter.Start(Pose2());
   const std::vector<Eigen::Vector2d> places = {{2.0, 1.0}, {3.0, 1.0}, {2.5, -1.0}};
   std::vector<ModelEdge> edges;
+  edges.reserve(places.size());
   for (const auto& place : places) edges.push_back(EdgeTo(place, Pose2()));
   filter.AddEdges(edges);
   EXPECT_FALSE(filter.Contradicts(edges));

@@ -32,10 +32,11 @@ struct ModelEdge {
   double bearing_stddev = 0.0;  ///< [rad]
   double range = 0.0;           ///< from the camera to the surface, horizontally [m]
   double range_stddev = 0.0;    ///< [m]
-  double time_offset = 0.0;     ///< when the image was taken, since the stamp of the model [s]
-  int sign = 0;                 ///< +1: darker on the left; -1: darker on the right
-  double weight = 0.0;          ///< share of the region of interest that is vertical edge here [-]
-  double contrast = 0.0;        ///< step at the edge [grey levels]
+  double range_by_bearing = 0.0;  ///< how the range along the surface grows with it [m/rad]
+  double time_offset = 0.0;       ///< when the image was taken, since the stamp of the model [s]
+  int sign = 0;                   ///< +1: darker on the left; -1: darker on the right
+  double weight = 0.0;    ///< share of the region of interest that is vertical edge here [-]
+  double contrast = 0.0;  ///< step at the edge [grey levels]
 
   Eigen::Vector2d point() const {
     return camera + range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
