@@ -1,5 +1,6 @@
 #include "scan_image_slam/ros/bounded_icp_node.h"
 
+#include "scan_image_slam/core/recording/number_text.h"
 #include "scan_image_slam/ros/node_parameters.h"
 #include "scan_image_slam/ros/publish_shared.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
@@ -7,7 +8,6 @@
 #include <scan_image_slam/ScanMatch.h>
 
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -69,9 +69,9 @@ BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_nod
   watch_.AddValue("matches", [this] { return std::to_string(matches_); });
   watch_.AddValue("window edge hits", [this] { return std::to_string(window_edge_hits_); });
   watch_.AddValue("encoder scale",
-                  [this] { return std::to_string(bounded_icp_.learned().encoder_scale); });
+                  [this] { return NumberText(bounded_icp_.learned().encoder_scale, 4); });
   watch_.AddValue("camera yaw correction [deg]",
-                  [this] { return std::to_string(Degrees(bounded_icp_.learned().camera_yaw)); });
+                  [this] { return NumberText(Degrees(bounded_icp_.learned().camera_yaw), 2); });
   watch_.AddValue("models dropped", [this] { return std::to_string(gate_.dropped()); });
   release_timer_ = node.createWallTimer(ros::WallDuration(0.005),
                                         [this](const ros::WallTimerEvent&) { ReleaseModels(); });
@@ -144,12 +144,12 @@ void BoundedIcpNode::CheckCalibration() {
   const LearnedCalibration learned = bounded_icp_.learned();
   const double yaw = Degrees(learned.camera_yaw);
   const bool off = std::abs(yaw) > kTolerated && Degrees(learned.camera_yaw_stddev) < kCertain;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "the camera looks %.1f deg farther to the %s than its transform says: mend that, "
-                "calibrate_camera_laser finds the values",
-                std::abs(yaw), yaw > 0.0 ? "left" : "right");
-  watch_.SetProblem("camera yaw", off ? text : "");
+  const auto text = [&] {
+    return "the camera looks " + NumberText(std::abs(yaw), 1) + " deg farther to the " +
+           (yaw > 0.0 ? "left" : "right") +
+           " than its transform says: mend that, calibrate_camera_laser finds the values";
+  };
+  watch_.SetProblem("camera yaw", off ? text() : "");
 }
 
 /// The window around the prediction, magnified so that it can be seen, and where the result lies.

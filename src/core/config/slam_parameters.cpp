@@ -156,8 +156,6 @@ void AddLocalMapMatcher(LocalMapMatcherOptions* o, ParameterSet* set) {
            "residuals of so many standard deviations count half");
   set->Add("refinement/correlation", &r.correlation, "-", {1.0, 1e6},
            "points of a scan that err together, as if they were one");
-  set->Add("refinement/edge_correlation", &r.edge_correlation, "-", {1.0, 1e6},
-           "edges of successive images that err together, as if they were one");
   set->Add("refinement/min_normal_cosine", &r.min_normal_cosine, "-", {-1.0, 1.0},
            "between the normals of a point and its element");
   set->Add("refinement/degenerate_ratio", &r.degenerate_ratio, "-", kFraction,

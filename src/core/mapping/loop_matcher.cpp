@@ -103,9 +103,9 @@ LoopMatch RefineInSubmap(const LoopQuery& query, const Submap& submap,
   prior.map_from_base = submap_from_base;
   prior.covariance = Eigen::Vector3d(s * s, s * s, a * a).asDiagonal();
   prior.kernel = 3.0;
-  const Refinement refined =
-      Refine(query.points, submap.local_map(), query.edges, submap.edge_map(), options.noise, prior,
-             submap_from_base, options.refinement);
+  const EdgeEvidence evidence{query.edges, submap.edge_map()};
+  const Refinement refined = Refine(query.points, submap.local_map(), options.noise, prior,
+                                    submap_from_base, options.refinement, &evidence);
   LoopMatch match;
   match.submap_from_base = refined.map_from_base;
   match.information = refined.information;

@@ -9,10 +9,6 @@
 namespace scan_image_slam {
 namespace {
 
-Eigen::Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
-Eigen::Vector2d Across(const Eigen::Vector2d& ray) { return {-ray.y(), ray.x()}; }
-
 /// A landmark where an image saw an edge: exact across the line of sight, as good as the surface
 /// along it.
 EdgeLandmark StartLandmark(const ModelEdge& edge, const RigidTransform2& map_from_base,
@@ -100,7 +96,7 @@ const EdgeLandmark* EdgeMap::Find(const ModelEdge& edge,
 }
 
 void EdgeMap::Insert(const std::vector<ModelEdge>& edges, const Pose2& map_from_base,
-                     const Eigen::Matrix3d& covariance, double way) {
+                     const Eigen::Matrix3d& covariance) {
   const RigidTransform2 transform(map_from_base);
   for (const ModelEdge& edge : edges) {
     const Eigen::Vector2d place = transform * edge.point();
@@ -115,14 +111,7 @@ void EdgeMap::Insert(const std::vector<ModelEdge>& edges, const Pose2& map_from_
       landmarks_.push_back(StartLandmark(edge, transform, options_.surface_stddev));
     }
     ++landmarks_[id].hits;
-    landmarks_[id].last_seen = way;
   }
-}
-
-void EdgeMap::ForgetBefore(double way) {
-  landmarks_.erase(std::remove_if(landmarks_.begin(), landmarks_.end(),
-                                  [&](const auto& e) { return e.last_seen < way; }),
-                   landmarks_.end());
 }
 
 }  // namespace scan_image_slam

@@ -112,8 +112,7 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
       TransportCovariance(filter_.PoseCovariance(), prediction.motion) + prediction.covariance;
   prior.kernel = options_.prior_kernel;
   const auto refine_from = [&](const Pose2& start) {
-    return Refine(points, local_map_, {}, EdgeMap(options_.filter.edges), options_.noise, prior,
-                  start, options_.refinement);
+    return Refine(points, local_map_, options_.noise, prior, start, options_.refinement);
   };
   Refinement refined = refine_from(map_from_predicted * FromArcCoordinates(found.deviation));
   const Velocity2 error = VelocityOverSweep(map_from_predicted.Inverse() * refined.map_from_base,

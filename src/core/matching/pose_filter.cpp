@@ -15,9 +15,6 @@ constexpr double kGate = 3.0;              // farther off is no measurement of i
 constexpr std::size_t kMostEdges = 40;     // at once; more would tell nothing new
 constexpr double kLeastInformation = 1.0;  // of a direction [1/m^2, 1/rad^2]
 
-Eigen::Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-Eigen::Vector2d Across(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
-
 /// From (forward, left, turn) of the base to (x, y, turn) of the map.
 Eigen::Matrix3d MapFromBase(double heading) {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();

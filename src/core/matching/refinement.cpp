@@ -91,14 +91,14 @@ struct EdgeTerm {
 };
 
 /// Sums over the edges: residual is how far the landmark lies off the line of sight.
-EdgeTerm SumOverEdges(const std::vector<ModelEdge>& edges, const EdgeMap& map,
-                      const Pose2& map_from_base, const RefinementOptions& options) {
+EdgeTerm SumOverEdges(const EdgeEvidence& evidence, const Pose2& map_from_base,
+                      const RefinementOptions& options) {
   const RigidTransform2 transform(map_from_base);
   EdgeTerm term;
-  for (const ModelEdge& edge : edges) {
-    const EdgeLandmark* landmark = map.Find(edge, transform);
+  for (const ModelEdge& edge : evidence.edges) {
+    const EdgeLandmark* landmark = evidence.map.Find(edge, transform);
     if (landmark == nullptr) continue;
-    const Eigen::Vector2d n(-std::sin(edge.bearing), std::cos(edge.bearing));
+    const Eigen::Vector2d n = Across(Direction(edge.bearing));
     const Eigen::Vector2d across = transform.Rotate(n);
     const Eigen::Vector2d p = edge.point();
     const double residual = across.dot(transform * p - landmark->position);
@@ -165,9 +165,8 @@ void RefinementOptions::Validate() const {
 }
 
 Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
-                  const std::vector<ModelEdge>& edges, const EdgeMap& edge_map,
                   const RangeNoise& noise, const MotionPrior& prior, const Pose2& start,
-                  const RefinementOptions& options) {
+                  const RefinementOptions& options, const EdgeEvidence* evidence) {
   constexpr int kWideIterations = 2;  // first steps from the grid, which is coarser than the gate
   constexpr double kSmallStep = 1e-5;
   const Eigen::Matrix3d prior_information = prior.covariance.inverse();
@@ -178,7 +177,7 @@ Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
     const double gate = i < kWideIterations ? 2.0 * options.gate : options.gate;
     const Pose2 pose = result.map_from_base;
     const ScanTerm scan = SumOverPoints(points, map, noise, pose, options, gate);
-    const EdgeTerm edge = SumOverEdges(edges, edge_map, pose, options);
+    const EdgeTerm edge = evidence == nullptr ? EdgeTerm() : SumOverEdges(*evidence, pose, options);
     NormalEquations equations = scan.equations;
     const auto weak = WeakDirection(equations.information, options.degenerate_ratio);
     // What little the scan says of it is noise of the normals.

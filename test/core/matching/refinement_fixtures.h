@@ -20,7 +20,8 @@ struct RefinementProblem {
   RefinementProblem() { prior.covariance *= 1e4; }
 
   Refinement From(const Pose2& start) const {
-    return Refine(points, map, edges, edge_map, noise, prior, start, options);
+    const EdgeEvidence evidence{edges, edge_map};
+    return Refine(points, map, noise, prior, start, options, &evidence);
   }
 };
 

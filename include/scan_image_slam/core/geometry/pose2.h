@@ -12,6 +12,12 @@ constexpr double Degrees(double radians) { return radians * 180.0 / M_PI; }
 /// The same angle in (-pi, pi] [rad]; NaN if it is not finite.
 double NormalizeAngle(double angle);
 
+/// The unit vector at an angle.
+inline Eigen::Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// The same vector turned by a quarter to the left.
+inline Eigen::Vector2d Across(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
+
 /// Rigid motion in the plane, named target_from_source: maps points of `source` into `target`.
 struct Pose2 {
   double x = 0.0;      ///< [m]

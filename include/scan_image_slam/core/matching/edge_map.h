@@ -26,7 +26,6 @@ struct EdgeLandmark {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< [m^2]
   int sign = 0;                                              ///< see ModelEdge
   int hits = 0;                                              ///< images that showed it
-  double last_seen = 0.0;  ///< way driven when an image showed it last [m]
 };
 
 /// The edges of a model that can be told from their neighbours: within reach, and with no other of
@@ -43,17 +42,11 @@ class EdgeMap {
   const EdgeLandmark* Find(const ModelEdge& edge, const RigidTransform2& map_from_base) const;
 
   /// Refines the landmarks of a model's edges and starts new ones. `covariance` is that of the
-  /// pose, of (forward, left, turn) in the base frame; `way` is what was driven so far [m].
+  /// pose, of (forward, left, turn) in the base frame.
   void Insert(const std::vector<ModelEdge>& edges, const Pose2& map_from_base,
-              const Eigen::Matrix3d& covariance, double way = 0.0);
-
-  /// Drops what no image has shown since `way`.
-  void ForgetBefore(double way);
+              const Eigen::Matrix3d& covariance);
 
   const std::vector<EdgeLandmark>& landmarks() const { return landmarks_; }
-  const EdgeMapOptions& options() const { return options_; }
-  /// For the edges to come; landmarks stay.
-  void SetOptions(const EdgeMapOptions& options) { options_ = options; }
 
  private:
   /// The landmark of a sign nearest to a place, at most `reach` away; -1 if there is none.

@@ -51,12 +51,17 @@ struct Refinement {
   double degenerate_direction = 0.0;  ///< in the base frame [rad]
 };
 
+/// Vertical edges that an image shows, and the map in which they are looked up.
+struct EdgeEvidence {
+  const std::vector<ModelEdge>& edges;
+  const EdgeMap& map;
+};
+
 /// Refines a pose below the grid step: iterated least squares of the distances from the points to
 /// the lines of their elements (Chen and Medioni 1992), with a robust kernel, and the prior.
-/// An edge pulls the pose so that its line of sight meets its landmark.
+/// An edge, where there are any, pulls the pose so that its line of sight meets its landmark.
 Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
-                  const std::vector<ModelEdge>& edges, const EdgeMap& edge_map,
                   const RangeNoise& noise, const MotionPrior& prior, const Pose2& start,
-                  const RefinementOptions& options);
+                  const RefinementOptions& options, const EdgeEvidence* evidence = nullptr);
 
 }  // namespace scan_image_slam
