@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -30,8 +31,23 @@ double CauchyWeight(double squared_residual, double variance, double kernel) {
   return 1.0 / (1.0 + squared_residual / (kernel * kernel * variance));
 }
 
+/// How good the residuals are by what the noise lets expect, from their median (Rousseeuw and Leroy
+/// 1987): a kernel made for a noisy laser lets wrong neighbours through when the laser is exact.
+double VarianceScale(std::vector<double> normalized_squares) {
+  constexpr double kMedianOfChiSquare = 0.455;
+  constexpr double kLeast = 1e-4;
+  constexpr double kMost = 9.0;
+  constexpr std::size_t kFewest = 10;  // so few say nothing
+  if (normalized_squares.size() < kFewest) return 1.0;
+  const auto middle =
+      normalized_squares.begin() + static_cast<std::ptrdiff_t>(normalized_squares.size() / 2);
+  std::nth_element(normalized_squares.begin(), middle, normalized_squares.end());
+  return std::clamp(*middle / kMedianOfChiSquare, kLeast, kMost);
+}
+
 struct ScanTerm {
   NormalEquations equations;
+  double variance_scale = 1.0;  ///< for the sums that come next
   int matched = 0;
   double weighted_squares = 0.0;
   double weights = 0.0;
@@ -41,8 +57,10 @@ struct ScanTerm {
 /// frame is (n_b, n_b x p) with n_b the normal seen from the base.
 ScanTerm SumOverPoints(const std::vector<SurfacePoint>& points, const LocalMap& map,
                        const RangeNoise& noise, const Pose2& map_from_base,
-                       const RefinementOptions& options, double gate) {
+                       const RefinementOptions& options, double gate, double variance_scale) {
   ScanTerm term;
+  std::vector<double> normalized_squares;
+  normalized_squares.reserve(points.size());
   const RigidTransform2 transform(map_from_base);
   const RigidTransform2 rotate_back(Pose2{0.0, 0.0, -map_from_base.theta});
   const double model_variance = options.model_stddev * options.model_stddev;
@@ -60,9 +78,11 @@ ScanTerm SumOverPoints(const std::vector<SurfacePoint>& points, const LocalMap& 
     const double cosine = -n.dot(p.ray);
     if (cosine <= 0.0) continue;  // the wall's other side
     if (p.has_normal() && p.normal.dot(n) < options.min_normal_cosine) continue;
-    const double variance =
+    const double expected =
         model_variance + noise.VarianceAcross(p.range, cosine) + 1.0 / element->information;
     const double squared = residual * residual;
+    normalized_squares.push_back(squared / expected);
+    const double variance = variance_scale * expected;
     const double w = CauchyWeight(squared, variance, options.kernel) / variance;
     const double turn = p.point.x() * n.y() - p.point.y() * n.x();
     xx += w * n.x() * n.x();
@@ -78,6 +98,7 @@ ScanTerm SumOverPoints(const std::vector<SurfacePoint>& points, const LocalMap& 
     term.weights += w;
     ++term.matched;
   }
+  term.variance_scale = VarianceScale(std::move(normalized_squares));
   term.equations.information << xx, xy, xt, xy, yy, yt, xt, yt, tt;
   term.equations.gradient << gx, gy, gt;
   term.equations.information /= options.correlation;
@@ -173,10 +194,12 @@ Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
   Refinement result;
   result.map_from_base = start;
   result.covariance = prior.covariance;
+  double variance_scale = 1.0;
   for (int i = 0; i <= options.max_iterations; ++i) {
     const double gate = i < kWideIterations ? 2.0 * options.gate : options.gate;
     const Pose2 pose = result.map_from_base;
-    const ScanTerm scan = SumOverPoints(points, map, noise, pose, options, gate);
+    const ScanTerm scan = SumOverPoints(points, map, noise, pose, options, gate, variance_scale);
+    variance_scale = scan.variance_scale;
     const EdgeTerm edge = evidence == nullptr ? EdgeTerm() : SumOverEdges(*evidence, pose, options);
     NormalEquations equations = scan.equations;
     const auto weak = WeakDirection(equations.information, options.degenerate_ratio);
@@ -186,8 +209,7 @@ Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
     result.information = equations.information;
     result.gradient = equations.gradient;
     result.linearised_at = pose;
-    result.degenerate =
-        weak && WeakDirection(equations.information, options.degenerate_ratio).has_value();
+    result.degenerate = weak.has_value();
     result.degenerate_direction = weak ? std::atan2(weak->y(), weak->x()) : 0.0;
     const PriorTerm before = PriorAt(prior, prior_information, pose);
     equations += before.equations;

@@ -132,12 +132,6 @@ TEST(RefineEvidence, EdgesTellTheWayAlongACorridor) {
   EXPECT_NEAR(result.map_from_base.y, 0.05, 1e-3);
 }
 
-TEST(RefineEvidence, IsNotDegenerateWhereEdgesTellTheWay) {
-  RefinementProblem problem = CorridorWithEdges({0.3, 0.0, 0.0});
-  problem.prior.map_from_base = {0.25, 0.0, 0.0};
-  EXPECT_FALSE(problem.From(problem.prior.map_from_base).degenerate);
-}
-
 /// Means over many scans with noise.
 struct MonteCarlo {
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();     ///< of the errors

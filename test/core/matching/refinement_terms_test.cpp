@@ -102,18 +102,46 @@ TEST(RefineTerms, APriorBeyondItsKernelLosesWeight) {
 }
 
 TEST(RefineTerms, PointsBeyondTheKernelLoseWeight) {
-  // 16 points on the wall and 5 that lie 0.08 m before it: minimum of the sum of Cauchy's
-  // log(1 + r^2 / (kernel^2 variance)), by bisection of the derivative.
+  // Of 21 points 8 lie d behind the wall, 8 as far before it, and 5 lie 0.08 m before it. Minimum
+  // of the sum of Cauchy's log(1 + r^2 / (kernel^2 variance)), by bisection of the derivative; the
+  // eleventh of the squared residuals is that of the second 8, and the variance follows from it.
+  constexpr double kOff = 0.008;
   RefinementProblem problem = WallProblem(10);
   problem.options.kernel = 2.0;
   problem.options.max_iterations = 50;
-  for (std::size_t i = 0; i < problem.points.size(); i += 5) problem.points[i].point.x() -= 0.08;
+  for (std::size_t i = 0; i < problem.points.size(); ++i) {
+    const double off = i % 5 == 0 ? -0.08 : (i % 5) % 2 == 0 ? kOff : -kOff;
+    problem.points[i].point.x() += off;
+  }
   problem.prior.covariance.diagonal() << 1e4, 1e-10, 1e-10;
-  const auto influence = [](double r) { return r / (1.0 + r * r / (4.0 * kVariance)); };
-  const double expected =
-      Root(0.0, 0.08, [&](double x) { return 16.0 * influence(x) + 5.0 * influence(x - 0.08); });
+  const double expected = Root(0.0, 0.08, [&](double x) {
+    const double variance = (x + kOff) * (x + kOff) / 0.455;
+    const auto influence = [&](double r) { return r / (1.0 + r * r / (4.0 * variance)); };
+    return 8.0 * influence(x + kOff) + 8.0 * influence(x - kOff) + 5.0 * influence(x - 0.08);
+  });
   EXPECT_LT(expected, 0.01);  // of 0.019, the mean
   EXPECT_NEAR(problem.From(Pose2()).map_from_base.x, expected, 1e-4);
+}
+
+TEST(RefineTerms, AnExactScanIsNotPulledByWrongNeighbours) {
+  RefinementProblem problem = WallProblem(10);
+  problem.options.kernel = 2.0;
+  for (std::size_t i = 0; i < problem.points.size(); i += 5) problem.points[i].point.x() -= 0.08;
+  problem.prior.covariance.diagonal() << 1e4, 1e-10, 1e-10;
+  EXPECT_NEAR(problem.From(Pose2()).map_from_base.x, 0.0, 1e-4);
+}
+
+TEST(RefineTerms, VarianceFollowsTheResiduals) {
+  // Half of 20 points lie behind the wall and half before it, by 0.01 m or by twice that.
+  const auto variance_with = [](double off) {
+    RefinementProblem problem = WallProblem(10);
+    problem.points.pop_back();
+    for (std::size_t i = 0; i < 20; ++i) problem.points[i].point.x() += i % 2 == 0 ? off : -off;
+    problem.prior.covariance.diagonal() << 1e4, 1e-10, 1e-10;
+    return 1.0 / problem.From(Pose2()).information(0, 0);
+  };
+  EXPECT_NEAR(variance_with(0.01), 0.01 * 0.01 / 0.455 / 20.0, 1e-7);
+  EXPECT_NEAR(variance_with(0.02), 4.0 * variance_with(0.01), 1e-7);
 }
 
 TEST(RefineTerms, ResidualIsMeasuredAcrossTheWalls) {
