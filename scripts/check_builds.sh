@@ -111,13 +111,15 @@ for file in "$repository"/launch/*.launch; do
   grep -q "$something" "$work/log"
 done
 
-say "nodelets"
-quietly sourced rospack plugins --attrib=plugin nodelet
-plugins=$(awk '$1 == "scan_image_slam" {print $2}' "$work/log")
-[ "$plugins" = "$install/share/scan_image_slam/nodelet_plugins.xml" ]
-library=$install/$(sed -n 's/.*<library path="\(.*\)">.*/\1/p' "$plugins").so
-quietly sourced ldd "$library"
-if grep 'not found' "$work/log" >&2; then exit 1; fi
+say "plugins: nodelets, the panel of rviz"
+for kind in nodelet rviz; do
+  quietly sourced rospack plugins --attrib=plugin "$kind"
+  plugins=$(awk '$1 == "scan_image_slam" {print $2}' "$work/log")
+  [ "$plugins" = "$install/share/scan_image_slam/${kind}_plugins.xml" ]
+  library=$install/$(sed -n 's/.*<library path="\(.*\)">.*/\1/p' "$plugins").so
+  quietly sourced ldd "$library"
+  if grep 'not found' "$work/log" >&2; then exit 1; fi
+done
 
 say "another package against the installed headers and libraries"
 mkdir -p "$work/user"

@@ -12,11 +12,11 @@ debian_packages=(
   # build
   catkin cmake g++ ninja-build ccache
   libceres-dev libcli11-dev libeigen3-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev zlib1g-dev
-  libcv-bridge-dev libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev
-  libimage-transport-dev libmap-msgs-dev libmessage-filters-dev libnav-msgs-dev libnodelet-dev
-  libnodeletlib-dev librosbag-dev libroscpp-dev librostest-dev
-  libsensor-msgs-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev libtf2-ros-dev
-  libvisualization-msgs-dev pluginlib-dev
+  libcv-bridge-dev libdiagnostic-msgs-dev libdiagnostic-updater-dev
+  libdynamic-reconfigure-config-init-mutex-dev libimage-transport-dev libmap-msgs-dev
+  libmessage-filters-dev libnav-msgs-dev libnodelet-dev libnodeletlib-dev librosbag-dev
+  libroscpp-dev librostest-dev librviz-dev libsensor-msgs-dev libstd-srvs-dev libtf2-dev
+  libtf2-msgs-dev libtf2-ros-dev libvisualization-msgs-dev pluginlib-dev qtbase5-dev
   # message definitions, which the libraries above only recommend
   ros-actionlib-msgs ros-diagnostic-msgs ros-geometry-msgs ros-map-msgs ros-message-generation
   ros-message-runtime ros-nav-msgs ros-roscpp-msg ros-rosgraph-msgs ros-sensor-msgs ros-std-msgs
@@ -37,8 +37,9 @@ debian_test_packages=(
 )
 ubuntu_packages=(
   cmake g++ ninja-build ccache
-  libceres-dev libcli11-dev libeigen3-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev zlib1g-dev
-  ros-noetic-catkin ros-noetic-cv-bridge ros-noetic-diagnostic-updater
+  libceres-dev libcli11-dev libeigen3-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev qtbase5-dev
+  zlib1g-dev
+  ros-noetic-catkin ros-noetic-cv-bridge ros-noetic-diagnostic-msgs ros-noetic-diagnostic-updater
   ros-noetic-dynamic-reconfigure ros-noetic-image-transport ros-noetic-nodelet ros-noetic-pluginlib
   ros-noetic-map-msgs ros-noetic-message-filters ros-noetic-nav-msgs ros-noetic-rosbag
   ros-noetic-roscpp ros-noetic-roslaunch ros-noetic-rosbash ros-noetic-rostest ros-noetic-rviz

@@ -55,6 +55,7 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
   watch_.AddValue("mode", [this] {
     return mapper_.lost() ? "lost" : mapper_.growing() ? "mapping" : "localization";
   });
+  watch_.AddValue("paused", [this] { return paused_ ? "yes" : "no"; });
   watch_.AddValue("agreement with the loaded map", [this] { return std::to_string(agreement_); });
   StartWithStateFile();
 

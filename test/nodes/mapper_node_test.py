@@ -10,6 +10,7 @@ import numpy
 import rospy
 import rostest
 import yaml
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Pose2D, PoseWithCovarianceStamped
 from live_support import (START, WALLS, Console, Recorder, angle_difference, compose, make_model,
                           publisher, stamp_of, wait_for, wait_subscribed, yaw_of, yaw_quaternion)
@@ -72,6 +73,7 @@ class MapperNodeTest(unittest.TestCase):
         cls.initial_pose = publisher('initialpose', PoseWithCovarianceStamped)
         cls.console = Console()
         cls.commands = Recorder('syscommand', String).wait_connected()
+        cls.diagnostics = Recorder('/diagnostics', DiagnosticArray)
         cls.poses = Recorder('pose', PoseWithCovarianceStamped).wait_connected()
         cls.maps = Recorder('map', OccupancyGrid).wait_connected()
         cls.updates = Recorder('map_updates', OccupancyGridUpdate).wait_connected()
@@ -119,6 +121,17 @@ class MapperNodeTest(unittest.TestCase):
                 return None
             return grid if grid.info.width > 0 and condition(grid) else None
         return wait_for(get, 'a map with ' + what)
+
+    def expect_paused(self, value):
+        """What /diagnostics tell from now on."""
+        heard = len(self.diagnostics.messages)
+
+        def told():
+            return any(status.name == 'mapper: inputs' and pair.key == 'paused'
+                       and pair.value == value
+                       for message in self.diagnostics.messages[heard:]
+                       for status in message.status for pair in status.values)
+        wait_for(told, f'"paused: {value}" in the diagnostics')
 
     def expect_pose(self, message, expected):
         pose = message.pose.pose
@@ -233,12 +246,15 @@ class MapperNodeTest(unittest.TestCase):
     def test_pause_leaves_the_map_but_not_the_pose(self):
         self.drive(3)
         before = self.current_map(lambda g: True, 'anything')
+        self.expect_paused('no')
         self.assertTrue(self.pause(True).success)
+        self.expect_paused('yes')
         self.way = 20.0  # the room would be drawn far away from the first one
         last = self.drive(3)
         self.expect_pose(self.poses.at(self.time - PERIOD), last)
         self.assertEqual(self.get_map().map.info.width, before.info.width)
         self.assertTrue(self.pause(False).success)
+        self.expect_paused('no')
         self.drive(2)
         self.current_map(lambda g: g.info.width > before.info.width, 'the room beyond')
 

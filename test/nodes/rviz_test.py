@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""rviz with the package's layout, on a screen in memory: the map is in the picture."""
+"""rviz with the package's layout, on a screen in memory: the map is in the picture, the panel works."""
 
 import ctypes
 import os
@@ -131,6 +131,13 @@ class RvizTest(unittest.TestCase):
             folder = os.environ.get('SCAN_IMAGE_SLAM_TEST_PICTURES')
             if folder and last:
                 cv2.imwrite(os.path.join(folder, 'rviz.png'), last[0])
+
+    def test_the_panel_is_loaded(self):
+        def heard():
+            subscribers = rospy.get_master().getSystemState()[2][1]
+            return any(topic == '/diagnostics' and any(node.startswith('/rviz') for node in nodes)
+                       for topic, nodes in subscribers)
+        wait_for(heard, 'a subscription of the panel', 120)
 
     def is_room(self, picture):
         """What is known has the room's size; it is light, with dark walls around it."""

@@ -11,7 +11,7 @@ namespace {
 const std::vector<std::string> kCpp = {".h", ".cpp"};
 const std::vector<std::string> kCore = {"include/scan_image_slam/core", "src/core"};
 const std::vector<std::string> kRos = {"include/scan_image_slam/ros", "src/ros"};
-const std::vector<std::string> kPrograms = {"src/nodes", "src/tools"};
+const std::vector<std::string> kPrograms = {"src/nodes", "src/tools", "src/rviz"};
 
 std::vector<SourceFile> Sources(const std::vector<std::string>& folders) {
   std::vector<SourceFile> files = FilesBelow(folders, kCpp);
@@ -89,6 +89,8 @@ TEST(Dependencies, OfRosArePointedAtTheCore) {
                               [](const std::string& include) {
                                 return include.find("nodes/") == std::string::npos &&
                                        include.find("tools/") == std::string::npos &&
+                                       include.find("<rviz/") == std::string::npos &&
+                                       include.find("<Q") == std::string::npos &&
                                        include.find("..") == std::string::npos;
                               }),
             Places());
