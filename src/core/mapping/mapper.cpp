@@ -16,6 +16,10 @@ namespace {
 /// [m].
 constexpr double kUnknownWay = 30.0;
 
+/// So many scans in a row may fail, as when somebody walks by: the matching finds its way back in
+/// the surroundings that it knows.
+constexpr int kBriefGap = 5;
+
 bool IsReliable(MatchStatus status) {
   return status != MatchStatus::kOnWindowEdge && status != MatchStatus::kTooFewPoints;
 }
@@ -102,7 +106,8 @@ MapPose Mapper::AddMatch(const MatchedMotion& match) {
     last_.map_from_odom = last_.map_from_base * match.odom_from_base->Inverse();
   }
   has_pose_ = true;
-  if (!IsReliable(match.status)) joined_ = false;
+  failed_ = IsReliable(match.status) ? 0 : failed_ + 1;
+  if (failed_ > kBriefGap) joined_ = false;
   if (!lost_) tracked_.push_back({match.stamp, Attach(last_.map_from_base)});
   return last_;
 }

@@ -117,16 +117,35 @@ TEST_F(MapperCorrection, IgnoresPosesOfMoreKeyframesThanThereAre) {
   EXPECT_NEAR(mapper_.Trajectory().back().map_from_base.x, poses_.back().x, 1e-9);
 }
 
-TEST_F(MapperCorrection, AMotionThatTheMatchingLostIsMarkedAsABreak) {
-  MatchedMotion lost =
-      MatchAt(kStart, kStart + 1'100'000'000LL, poses_.front().Inverse() * Pose2{2.6, 0.5, 0.0});
-  lost.status = MatchStatus::kTooFewPoints;
-  mapper_.AddMatch(lost);
-  EXPECT_EQ(mapper_.AddModel(models_.back(), lost), nullptr);
-  const MatchedMotion again =
-      MatchAt(kStart, kStart + 1'200'000'000LL, poses_.front().Inverse() * Pose2{2.9, 0.5, 0.0});
-  mapper_.AddMatch(again);
-  const auto keyframe = mapper_.AddModel(models_.back(), again);
+/// The keyframe after so many matches in a row that failed.
+class MapperGap : public MapperCorrection {
+ protected:
+  std::shared_ptr<const Keyframe> KeyframeAfter(int failures) {
+    const auto match_at = [&](int i, double x) {
+      return MatchAt(kStart, kStart + 1'100'000'000LL + 100'000'000LL * i,
+                     poses_.front().Inverse() * Pose2{x, 0.5, 0.0});
+    };
+    for (int i = 0; i < failures; ++i) {
+      MatchedMotion lost = match_at(i, 2.6);
+      lost.status = MatchStatus::kTooFewPoints;
+      mapper_.AddMatch(lost);
+      EXPECT_EQ(mapper_.AddModel(models_.back(), lost), nullptr);
+    }
+    const MatchedMotion again = match_at(failures, 2.9);
+    mapper_.AddMatch(again);
+    return mapper_.AddModel(models_.back(), again);
+  }
+};
+
+TEST_F(MapperGap, ABriefOneIsNoBreak) {
+  const auto keyframe = KeyframeAfter(5);
+  ASSERT_NE(keyframe, nullptr);
+  EXPECT_TRUE(keyframe->joined);
+  EXPECT_LT(keyframe->covariance(0, 0), 0.01);
+}
+
+TEST_F(MapperGap, ALongOneIsMarkedAsABreak) {
+  const auto keyframe = KeyframeAfter(6);
   ASSERT_NE(keyframe, nullptr);
   EXPECT_FALSE(keyframe->joined);
   EXPECT_GE(keyframe->covariance(0, 0), 1.0);

@@ -131,6 +131,7 @@ class Mapper {
   Pose2 map_from_drawn_;
 
   std::vector<Pose2> keyframe_poses_;
+  int failed_ = 0;              ///< matches in a row, up to the last one
   bool joined_ = true;          ///< the matching has followed all motion since the last keyframe
   double way_ = 0.0;            ///< driven so far [m]
   Stamp kept_start_stamp_ = 0;  ///< chain of the last keyframe
