@@ -50,8 +50,10 @@ std::string HistogramText(const std::vector<double>& latencies) {
   const std::size_t most = *std::max_element(counts.begin(), counts.end());
   std::size_t rows = counts.size();
   while (rows > 0 && counts[rows - 1] == 0) --rows;
+  std::size_t first = 0;
+  while (first < rows && counts[first] == 0) ++first;
   std::string text = "\nup to [ms]     scans\n";
-  for (std::size_t i = 0; i < rows; ++i) {
+  for (std::size_t i = first; i < rows; ++i) {
     const std::string bound = i < kBounds.size() ? Format("%10.0f", kBounds[i]) : "      more";
     const std::size_t bar = (counts[i] * kWidth + most - 1) / most;  // what is not 0 is seen
     text += bound + Format("%10zu  ", counts[i]) + std::string(bar, '#') + "\n";

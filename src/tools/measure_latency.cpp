@@ -67,6 +67,10 @@ class Receiver {
     const std::lock_guard<std::mutex> lock(mutex_);
     return record_;
   }
+  void Close() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    record_.Close();
+  }
   bool begun() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return record_.begun();
@@ -192,7 +196,7 @@ void Measure(const Arguments& arguments) {
     throw std::runtime_error("no master answers at " + ros::master::getURI() +
                              ": start the nodes first, or set ROS_MASTER_URI");
   }
-  const Receiver receiver(arguments);
+  Receiver receiver(arguments);
   AwaitPose(receiver, arguments.wait);
   Measurement measurement(receiver, arguments.json);
   std::cerr << "measuring; Ctrl-C ends it\n";
@@ -201,6 +205,7 @@ void Measure(const Arguments& arguments) {
     WaitUntil(std::min(Now() + arguments.period, end), [] { return false; });
     measurement.Look();
   }
+  receiver.Close();
   // Scans that are on their way are not dropped yet; a pose later than this is of no use.
   constexpr double kLate = 1.0;
   WaitUntil(Now() + kLate, [&] { return receiver.record().waiting() == 0; });

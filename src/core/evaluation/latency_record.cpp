@@ -10,6 +10,7 @@ constexpr std::size_t kMaxEarly = 20;  // as many scans as may be on their way
 }  // namespace
 
 void LatencyRecord::AddScan(Stamp stamp, Stamp arrival) {
+  if (closed_) return;
   const auto early = std::find(early_.begin(), early_.end(), stamp);
   if (early == early_.end()) {
     waiting_.push_back({stamp, arrival});
@@ -27,7 +28,7 @@ void LatencyRecord::AddPose(Stamp stamp, Stamp arrival) {
     latencies_.push_back(static_cast<double>(arrival - scan->arrival) / 1e6);
     waiting_.erase(waiting_.begin(), scan + 1);
     begun_ = true;
-  } else if (begun_) {
+  } else if (begun_ && !closed_) {
     early_.push_back(stamp);
     if (early_.size() > kMaxEarly) {
       early_.pop_front();

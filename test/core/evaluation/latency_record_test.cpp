@@ -76,6 +76,21 @@ TEST_F(LatencyRecordTest, PosesWithoutAScanAreCountedAndForgotten) {
   EXPECT_EQ(record_.waiting(), 1u);
 }
 
+TEST_F(LatencyRecordTest, ClosedItCountsThePosesOfKnownScansOnly) {
+  Scan(1);
+  Pose(1, 1);
+  Scan(2);
+  Scan(3);
+  record_.Close();
+  Scan(4);
+  Pose(3, 30);
+  Pose(4, 1);
+  EXPECT_EQ(record_.latencies(), Latencies({1.0, 30.0}));
+  EXPECT_EQ(record_.dropped(), 1u);
+  EXPECT_EQ(record_.waiting(), 0u);
+  EXPECT_EQ(record_.strangers(), 0u);
+}
+
 TEST_F(LatencyRecordTest, GoesOnWhenARecordingBeginsAnew) {
   Scan(100);
   Pose(100, 1);

@@ -17,6 +17,9 @@ class LatencyRecord {
   /// Poses come in the order of their scans: a scan that is overtaken was dropped.
   void AddPose(Stamp stamp, Stamp arrival);
 
+  /// Scans and poses to unknown ones count no longer; poses of those that wait do.
+  void Close() { closed_ = true; }
+
   /// From the arrival of each scan to that of its pose, in the order of the poses [ms]; 0 if the
   /// pose came first, as it may by another connection.
   const std::vector<double>& latencies() const { return latencies_; }
@@ -39,6 +42,7 @@ class LatencyRecord {
   std::size_t dropped_ = 0;
   std::size_t strangers_ = 0;
   bool begun_ = false;
+  bool closed_ = false;
 };
 
 /// Number of values up to each of the ascending `bounds`, the bound before it excluded; the last
