@@ -216,6 +216,7 @@ int Main(int argc, char** argv) {
   std::vector<std::string> words;
   ros::removeROSArgs(argc, argv, words);
   std::vector<char*> own;
+  own.reserve(words.size());
   for (std::string& word : words) own.push_back(word.data());
   Arguments arguments;
   CLI::App app(

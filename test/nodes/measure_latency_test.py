@@ -39,18 +39,22 @@ class MeasureLatencyTest(unittest.TestCase):
         self.folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, self.folder)
         self.file = os.path.join(self.folder, 'latency.json')
+        self.errors = os.path.join(self.folder, 'errors')
 
     def start(self, *options):
-        """The tool, once it listens."""
-        with open(self.file + '.errors', 'w') as errors:
-            process = subprocess.Popen([program('measure_latency'), '--json', self.file, *options],
-                                       text=True, stdout=subprocess.PIPE, stderr=errors)
+        return self.run_in_group(program('measure_latency'), '--json', self.file, *options)
+
+    def run_in_group(self, *command):
+        """Starts a program in a process group of its own, as a terminal does."""
+        with open(self.errors, 'w') as errors:
+            process = subprocess.Popen(command, text=True, stdout=subprocess.PIPE, stderr=errors,
+                                       start_new_session=True)
         self.addCleanup(process.kill)
         return process
 
     def said(self):
         """On stderr."""
-        with open(self.file + '.errors') as file:
+        with open(self.errors) as file:
             return file.read()
 
     def scan(self, number):
@@ -62,7 +66,7 @@ class MeasureLatencyTest(unittest.TestCase):
         self.poses.publish(message)
 
     def stop(self, process):
-        process.send_signal(signal.SIGINT)
+        os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C does
         output, _ = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 0, self.said())
         return output, self.report()
@@ -115,6 +119,21 @@ class MeasureLatencyTest(unittest.TestCase):
         self.assertAlmostEqual(sum(p['seconds'] for p in periods), report['seconds'], 6)
         self.assertEqual(sum(p['scans'] for p in periods), report['scans'])
         self.assertEqual(sum(p['dropped'] for p in periods), 3)
+
+    def test_report_of_a_long_run(self):
+        process = self.run_in_group(
+            program('soak.py'), '--out', self.folder, '--period', '0.2', '--scan-topic',
+            'front/scan', '--programs', os.path.dirname(program('measure_latency')))
+        self.begin(process)
+        wait_for(lambda: os.path.exists(self.file) and len(self.report()['periods']) > 4, 'periods')
+        report = self.stop(process)[1]
+        with open(os.path.join(self.folder, 'report.md')) as file:
+            page = file.read()
+        self.assertIn(f"{report['scans']} scans, {report['dropped']} of them without", page)
+        self.assertIn(f'| {NAME} | ', page)
+        for picture in ('latency.png', 'load.png'):
+            self.assertIn(f']({picture})', page)
+            self.assertGreater(os.path.getsize(os.path.join(self.folder, picture)), 5000)
 
     def test_processor_time_of_the_nodes(self):
         process = self.start('--scan-topic', 'front/scan')

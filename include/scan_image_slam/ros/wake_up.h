@@ -12,7 +12,7 @@ namespace scan_image_slam {
 /// there is nothing to wait for.
 class WakeUp {
  public:
-  WakeUp(ros::NodeHandle node, std::function<void()> call)
+  WakeUp(const ros::NodeHandle& node, const std::function<void()>& call)
       : timer_(node.createSteadyTimer(
             ros::WallDuration(1.0), [call](const ros::SteadyTimerEvent&) { call(); },
             /*oneshot=*/true, /*autostart=*/false)) {}
