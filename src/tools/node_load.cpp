@@ -5,11 +5,11 @@
 #include <set>
 #include <sstream>
 
-#include <XmlRpc.h>
 #include <ros/master.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <unistd.h>
+#include <xmlrpcpp/XmlRpc.h>
 
 namespace scan_image_slam {
 namespace {
