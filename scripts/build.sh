@@ -20,7 +20,7 @@ if ! cmake -S "$repository" -B "$build" -G Ninja -DCMAKE_CXX_COMPILER_LAUNCHER=c
   cat "$log" >&2
   exit 1
 fi
-if ! cmake --build "$build" -j "$jobs" --target all ${BUILD_TARGETS:-} >"$log" 2>&1; then
+if ! cmake --build "$build" -j "$jobs" --target ${BUILD_TARGETS:-all} >"$log" 2>&1; then
   grep -vE '^\[[0-9]+/[0-9]+\] ' "$log" >&2
   exit 1
 fi

@@ -31,7 +31,8 @@ debian_packages=(
   python3-matplotlib python3-numpy
 )
 debian_test_packages=(
-  catkin-lint catkin-tools clang-format clang-tidy git imagemagick libbenchmark-dev libgl1-mesa-dri
+  catkin-lint catkin-tools clang clang-format clang-tidy git imagemagick libbenchmark-dev
+  libclang-rt-dev libgl1-mesa-dri
   libgtest-dev libgmock-dev python3-numpy python3-opencv python3-rospkg python3-rospy
   python3-rostest python3-yaml xvfb x11-utils
 )
@@ -48,7 +49,7 @@ ubuntu_packages=(
   python3-matplotlib python3-numpy
 )
 ubuntu_test_packages=(
-  catkin-lint python3-catkin-tools clang-format clang-tidy git imagemagick libbenchmark-dev
+  catkin-lint python3-catkin-tools clang clang-format clang-tidy git imagemagick libbenchmark-dev
   libgl1-mesa-dri libgtest-dev libgmock-dev python3-opencv python3-rospkg python3-yaml xvfb x11-utils
 )
 

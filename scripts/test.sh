@@ -2,12 +2,12 @@
 # All tests and checks, on a fresh Debian 12 or Ubuntu 20.04 machine: installs, builds, tests.
 #   scripts/test.sh              everything
 #   scripts/test.sh unit tidy    only these steps (and the build they need)
-# Steps: format build unit tools live sanitize bench tidy builds
+# Steps: format build unit tools live sanitize fuzz bench tidy builds
 # Prints one line for each step, and all that a step has said if it fails. Tests with recorded data
 # look for it in ../shared/data, or in the folder SCAN_IMAGE_SLAM_DATA.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-all_steps=(format build unit tools live sanitize bench tidy builds)
+all_steps=(format build unit tools live sanitize fuzz bench tidy builds)
 steps=("$@")
 [ $# -eq 0 ] && steps=("${all_steps[@]}")
 for step in "${steps[@]}"; do
@@ -23,6 +23,7 @@ export SETUP_OPTIONS=--test
 export SCAN_IMAGE_SLAM_DATA=${SCAN_IMAGE_SLAM_DATA:-$repository/../shared/data}
 build=$repository/build_test
 sanitized=$repository/build_sanitize
+fuzzed=$repository/build_fuzz
 logs=$build/logs
 mkdir -p "$logs"
 passed=0
@@ -35,7 +36,7 @@ run_format() {
 }
 
 run_build() {
-  BUILD_TARGETS=tests "$here/build.sh" "$build" -DSCAN_IMAGE_SLAM_WERROR=ON \
+  BUILD_TARGETS="all tests" "$here/build.sh" "$build" -DSCAN_IMAGE_SLAM_WERROR=ON \
     -DSCAN_IMAGE_SLAM_BENCH=ON
 }
 
@@ -67,7 +68,7 @@ run_live() {
 
 # Warnings are the business of the other build: sanitizers make the compiler see ghosts.
 run_sanitize() {
-  BUILD_TARGETS=tests "$here/build.sh" "$sanitized" \
+  BUILD_TARGETS="all tests" "$here/build.sh" "$sanitized" \
     -DSCAN_IMAGE_SLAM_SANITIZE=address,undefined -DCMAKE_BUILD_TYPE=RelWithDebInfo \
     -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1"
   # Libraries of ROS leak what lives as long as the program.
@@ -76,6 +77,23 @@ run_sanitize() {
   local tools=$sanitized/devel/lib/scan_image_slam
   "$build/devel/lib/scan_image_slam/simulate" --world laboratory --out "$logs/run.bag" --duration 3
   "$tools/slam_offline" --bag "$logs/run.bag" --out "$logs/run"
+}
+
+# A few seconds each; what they find is kept in $fuzzed, and belongs into test/fuzz/corpus.
+run_fuzz() {
+  BUILD_TARGETS=fuzz_programs "$here/build.sh" "$fuzzed" -DSCAN_IMAGE_SLAM_FUZZ=ON \
+    -DCMAKE_CXX_COMPILER=clang++ -DCATKIN_ENABLE_TESTING=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only"
+  local source name seeds
+  for source in "$repository"/test/fuzz/*_fuzz.cpp; do
+    name=$(basename "$source" .cpp)
+    seeds=("$repository/test/fuzz/corpus/$name")
+    [ "$name" = yaml_fuzz ] && seeds+=("$repository/config" "$repository/config/worlds")
+    mkdir -p "$fuzzed/found/$name"
+    echo "$name"
+    "$fuzzed/devel/lib/scan_image_slam/$name" -seed=1 -max_total_time=6 -timeout=20 \
+      -artifact_prefix="$fuzzed/found/$name-" "$fuzzed/found/$name" "${seeds[@]}" 2>&1
+  done
 }
 
 # That they run, not how fast: machines differ.
@@ -105,7 +123,7 @@ run_step() {  # NAME
   fi
 }
 
-if [[ " ${steps[*]} " != *" build "* && "${steps[*]}" != format && "${steps[*]}" != builds ]]; then
+if [[ " ${steps[*]} " != *" build "* && ! "${steps[*]}" =~ ^(format|fuzz|builds)$ ]]; then
   steps=(build "${steps[@]}")
 fi
 [ -d "$SCAN_IMAGE_SLAM_DATA" ] ||

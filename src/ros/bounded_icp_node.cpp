@@ -53,6 +53,7 @@ BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_nod
       gate_(options_.node.odometry.max_wait, kMaxWaitingModels),
       watch_(node, private_node),
       tf_listener_(tf_, node),
+      wake_up_(node, [this] { ReleaseModels(); }),
       live_parameters_(private_node, Options().Parameters(), options_.Parameters(),
                        [this](const LiveParameters::Values& values) { Take(values); }) {
   match_publisher_ = node.advertise<ScanMatch>("scan_match", kModelQueue);
@@ -73,8 +74,6 @@ BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_nod
   watch_.AddValue("camera yaw correction [deg]",
                   [this] { return NumberText(Degrees(bounded_icp_.learned().camera_yaw), 2); });
   watch_.AddValue("models dropped", [this] { return std::to_string(gate_.dropped()); });
-  release_timer_ = node.createWallTimer(ros::WallDuration(0.005),
-                                        [this](const ros::WallTimerEvent&) { ReleaseModels(); });
 }
 
 /// A user has changed parameters: they count from the next model on.
@@ -126,6 +125,8 @@ void BoundedIcpNode::ReleaseModels() {
   while (const auto model = gate_.Pop(SteadyNow(), bounded_icp_.odometry())) {
     Publish(bounded_icp_.Match(*model));
   }
+  // The next one is looked at again when its time is up, though nothing arrives.
+  wake_up_.In(gate_.TimeLeft(SteadyNow()));
 }
 
 void BoundedIcpNode::Publish(const MatchedMotion& match) {

@@ -149,7 +149,11 @@ void MapperNode::OnInitialPose(const geometry_msgs::PoseWithCovarianceStampedCon
 /// Takes in what the back-end has found, and a little of the drawing that follows from it.
 void MapperNode::ApplyNews() {
   constexpr int kScansAtOnce = 4;
-  mapper_.Redraw(kScansAtOnce);
+  try {
+    mapper_.Redraw(kScansAtOnce);
+  } catch (const std::invalid_argument& error) {  // that scan stays where it is; the pose goes on
+    watch_.Refuse(paired_model_subscriber_.getTopic(), error.what());
+  }
   BackEndNews news = back_end_.Take();
   if (news.location) ApplyLocation(*news.location);
   if (!news.graph) return;

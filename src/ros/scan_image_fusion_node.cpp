@@ -63,6 +63,7 @@ ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle p
                    &watch_, mount_broadcaster_.get()),
       camera_mount_("camera", options_.node.camera, true, options_.node.odometry.base_frame, &tf_,
                     &watch_, mount_broadcaster_.get()),
+      wake_up_(node, [this] { ReleaseScans(); }),
       live_parameters_(private_node, Options().Parameters(), options_.Parameters(),
                        [this](const LiveParameters::Values& values) { Take(values); }) {
   model_publisher_ = node.advertise<IcpModel>("icp_model", kModelQueue);
@@ -78,9 +79,6 @@ ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle p
   watch_.Expect(scan_subscriber_, "sensor_msgs/LaserScan", false);
   watch_.AddValue("scans dropped while waiting for encoders",
                   [this] { return std::to_string(gate_.dropped()); });
-  // Scans that wait for the encoders are looked at again while nothing arrives.
-  release_timer_ = node.createWallTimer(ros::WallDuration(0.005),
-                                        [this](const ros::WallTimerEvent&) { ReleaseScans(); });
 }
 
 /// A user has changed parameters: they count from the next scan on.
@@ -198,6 +196,8 @@ void ScanImageFusionNode::OnCompressedImage(const sensor_msgs::CompressedImageCo
 
 void ScanImageFusionNode::ReleaseScans() {
   while (const auto scan = gate_.Pop(SteadyNow(), fusion_.odometry())) Publish(fusion_.Fuse(*scan));
+  // The next one is looked at again when its time is up, though nothing arrives.
+  wake_up_.In(gate_.TimeLeft(SteadyNow()));
 }
 
 void ScanImageFusionNode::Publish(const FusedModel& model) {

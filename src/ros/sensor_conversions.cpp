@@ -7,6 +7,7 @@ namespace scan_image_slam {
 namespace {
 
 constexpr std::size_t kMaxBeams = 100000;
+constexpr double kLongestSweep = 60.0;  // [s]
 
 Eigen::Quaterniond ToQuaternion(double x, double y, double z, double w) {
   const Eigen::Quaterniond q(w, x, y, z);
@@ -22,6 +23,9 @@ Eigen::Quaterniond ToQuaternion(double x, double y, double z, double w) {
 
 Stamp ToStamp(const ros::Time& time) {
   if (time.isZero()) throw std::invalid_argument("the stamp is zero: the driver has set none");
+  if (time.nsec >= 1000000000U) {
+    throw std::invalid_argument("the stamp has " + std::to_string(time.nsec) + " nanoseconds");
+  }
   return static_cast<Stamp>(time.toNSec());
 }
 
@@ -50,6 +54,11 @@ LaserScan ToLaserScan(const sensor_msgs::LaserScan& message) {
         "the scan covers more than a turn: angle_increment or the number of "
         "beams is wrong");
   }
+  if (!(std::abs(message.time_increment) * static_cast<double>(message.ranges.size()) <
+        kLongestSweep)) {
+    throw std::invalid_argument("the scan takes longer than " + std::to_string(kLongestSweep) +
+                                " s: time_increment is wrong");
+  }
   LaserScan scan;
   scan.stamp = ToStamp(message.header.stamp);
   scan.angle_min = message.angle_min;
@@ -61,10 +70,15 @@ LaserScan ToLaserScan(const sensor_msgs::LaserScan& message) {
   return scan;
 }
 
+bool IsPlausiblePosition(double x, double y) {
+  constexpr double kFarthest = 1e8;  // more than twice around the earth [m]
+  return std::abs(x) <= kFarthest && std::abs(y) <= kFarthest;
+}
+
 Pose2 ToPose2(const geometry_msgs::Pose& pose) {
   const auto& p = pose.position;
-  if (!(std::isfinite(p.x) && std::isfinite(p.y))) {
-    throw std::invalid_argument("the position is not finite");
+  if (!IsPlausiblePosition(p.x, p.y)) {
+    throw std::invalid_argument("the position is not finite, or out of this world");
   }
   const auto& o = pose.orientation;
   const Eigen::Quaterniond q = ToQuaternion(o.x, o.y, o.z, o.w);
@@ -100,23 +114,27 @@ Pose2 ToPose2(const Eigen::Isometry3d& pose) {
 
 CameraIntrinsics ToCameraIntrinsics(const sensor_msgs::CameraInfo& message) {
   constexpr std::uint32_t kMaxSide = 16384;
-  if (message.width > kMaxSide || message.height > kMaxSide) {
-    throw std::invalid_argument("image size " + std::to_string(message.width) + " x " +
-                                std::to_string(message.height) + " is too large");
+  const sensor_msgs::RegionOfInterest& roi = message.roi;
+  for (const std::uint32_t side :
+       {message.width, message.height, roi.width, roi.height, roi.x_offset, roi.y_offset}) {
+    if (side > kMaxSide) {
+      throw std::invalid_argument("a size or place of " + std::to_string(side) +
+                                  " pixels is too large for an image");
+    }
   }
   CameraIntrinsics intrinsics;
   const double binning_x = std::max<std::uint32_t>(1, message.binning_x);
   const double binning_y = std::max<std::uint32_t>(1, message.binning_y);
-  const bool whole = message.roi.width == 0 || message.roi.height == 0;
-  const double width = whole ? message.width : message.roi.width;
-  const double height = whole ? message.height : message.roi.height;
+  const bool whole = roi.width == 0 || roi.height == 0;
+  const double width = whole ? message.width : roi.width;
+  const double height = whole ? message.height : roi.height;
   intrinsics.width = static_cast<int>(width / binning_x);
   intrinsics.height = static_cast<int>(height / binning_y);
   for (int i = 0; i < 9; ++i) intrinsics.k.val[i] = message.K[i];
   intrinsics.k(0, 0) /= binning_x;
-  intrinsics.k(0, 2) = (intrinsics.k(0, 2) - message.roi.x_offset) / binning_x;
+  intrinsics.k(0, 2) = (intrinsics.k(0, 2) - roi.x_offset) / binning_x;
   intrinsics.k(1, 1) /= binning_y;
-  intrinsics.k(1, 2) = (intrinsics.k(1, 2) - message.roi.y_offset) / binning_y;
+  intrinsics.k(1, 2) = (intrinsics.k(1, 2) - roi.y_offset) / binning_y;
   intrinsics.distortion_model = message.distortion_model;
   intrinsics.d = message.D;
   intrinsics.Validate();

@@ -4,12 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 
 namespace scan_image_slam {
 namespace {
 
-Pose2 FromPose2D(const geometry_msgs::Pose2D& pose) { return {pose.x, pose.y, pose.theta}; }
+/// Throws std::invalid_argument, naming the pose, if it can't be one of a robot.
+Pose2 FromPose2D(const geometry_msgs::Pose2D& pose, const std::string& name) {
+  if (!IsPlausiblePosition(pose.x, pose.y) || !std::isfinite(pose.theta)) {
+    throw std::invalid_argument(name + " is not finite, or out of this world");
+  }
+  return {pose.x, pose.y, pose.theta};
+}
 
 VerticalEdge ToMessage(const ModelEdge& edge) {
   VerticalEdge message;
@@ -27,7 +34,18 @@ VerticalEdge ToMessage(const ModelEdge& edge) {
   return message;
 }
 
+/// Throws std::invalid_argument, naming the thing, unless all numbers are finite.
+void RequireFinite(std::initializer_list<double> numbers, const std::string& thing) {
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) throw std::invalid_argument(thing + " is not finite");
+  }
+}
+
 ModelEdge FromMessage(const VerticalEdge& message) {
+  RequireFinite({message.camera_x, message.camera_y, message.bearing, message.bearing_stddev,
+                 message.range, message.range_stddev, message.range_by_bearing, message.time_offset,
+                 message.weight, message.contrast},
+                "an edge");
   ModelEdge edge;
   edge.camera = {message.camera_x, message.camera_y};
   edge.bearing = message.bearing;
@@ -85,6 +103,11 @@ FusedModel FromMessage(const IcpModel& message) {
     if (size != n) throw std::invalid_argument("the arrays of the model differ in length");
   }
   FusedModel model;
+  if (!IsPlausiblePosition(message.laser_x, message.laser_y) || !std::isfinite(message.laser_yaw)) {
+    throw std::invalid_argument("the pose of the laser is not finite, or out of this world");
+  }
+  RequireFinite({message.sweep_velocity_x, message.sweep_velocity_y, message.sweep_velocity_yaw},
+                "the velocity");
   model.stamp = ToStamp(message.header.stamp);
   model.base_from_laser = {message.laser_x, message.laser_y, message.laser_yaw};
   model.upside_down = message.upside_down;
@@ -99,9 +122,13 @@ FusedModel FromMessage(const IcpModel& message) {
     beam.time_offset = message.time_offsets[i];
     beam.edge_weight = message.edge_weights[i];
     beam.edge_sign = message.edge_signs[i];
+    // Floats are finite together if their sum as doubles is.
+    if (!std::isfinite(beam.bearing + beam.time_offset + beam.edge_weight)) {
+      throw std::invalid_argument("beam " + std::to_string(i) + " is not finite");
+    }
     if (beam.hit()) {
       beam.point = {message.points_x[i], message.points_y[i]};
-      if (!beam.point.allFinite()) {
+      if (!IsPlausiblePosition(beam.point.x(), beam.point.y())) {
         throw std::invalid_argument("beam " + std::to_string(i) + " has a range but no point");
       }
     }
@@ -155,16 +182,15 @@ MatchedMotion FromMessage(const ScanMatch& message) {
   match.stamp = ToStamp(message.header.stamp);
   match.start_stamp = ToStamp(message.start_stamp);
   match.reference_stamp = ToStamp(message.reference_stamp);
-  match.start_from_reference = FromPose2D(message.reference_pose);
-  match.motion = FromPose2D(message.motion);
-  const Pose2 pose = match.start_from_base();
-  if (!(std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta))) {
-    throw std::invalid_argument("the motion is not finite");
-  }
+  match.start_from_reference = FromPose2D(message.reference_pose, "the reference's pose");
+  match.motion = FromPose2D(message.motion, "the motion");
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
       match.covariance(row, column) = message.covariance[3 * row + column];
     }
+  }
+  if (!match.covariance.allFinite()) {
+    throw std::invalid_argument("the covariance is not finite");
   }
   match.mode = static_cast<MatchMode>(message.mode);
   match.status = static_cast<MatchStatus>(message.status);
@@ -179,7 +205,9 @@ MatchedMotion FromMessage(const ScanMatch& message) {
   match.degenerate_direction = message.degenerate_direction;
   match.sweep_correction = {message.sweep_correction_x, message.sweep_correction_y,
                             message.sweep_correction_yaw};
-  if (message.has_odometry) match.odom_from_base = FromPose2D(message.odom_pose);
+  if (message.has_odometry) {
+    match.odom_from_base = FromPose2D(message.odom_pose, "the odometry's pose");
+  }
   return match;
 }
 

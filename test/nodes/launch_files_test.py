@@ -190,6 +190,31 @@ class LaunchFilesTest(unittest.TestCase):
         self.assertEqual(value(loaded, '/scan_image_fusion/use_camera'), False)
         self.assertEqual(value(loaded, '/bounded_icp/reference'), 'previous_frame')
 
+    def test_two_sides_make_one_robot(self):
+        arguments = {'config': 'paper', 'base_frame': 'base_footprint', 'map_frame': 'world'}
+        robot = load('robot_side.launch', scan_topic='front/scan', **arguments)
+        base = load('base_side.launch', base_frame='base_footprint', map_frame='world',
+                    rviz='false', autosave='60', state='/a.state')
+        whole = load('robot.launch', scan_topic='front/scan', **arguments)
+        self.assertEqual([node.name for node in robot.nodes], ['scan_image_fusion', 'bounded_icp'])
+        self.assertEqual([node.name for node in base.nodes], ['mapper'])
+        for node in NODES[:2]:
+            self.assertEqual(remaps(robot, node), remaps(whole, node))
+        # The master holds the parameters of both, in whichever order they are started.
+        here = {name: param.value for name, param in robot.params.items()}
+        there = {name: param.value for name, param in base.params.items()}
+        one = {name: param.value for name, param in whole.params.items()}
+        for together in ({**here, **there}, {**there, **here}):
+            for name, expected in one.items():
+                if name not in ('/rosdistro', '/rosversion', '/run_id', '/mapper/state_file',
+                                '/mapper/autosave_period'):
+                    self.assertEqual(together[name], expected, name)
+        self.assertEqual(there['/mapper/state_file'], '/a.state')
+        self.assertEqual(there['/mapper/autosave_period'], 60)
+        self.assertTrue(base.nodes[0].respawn)
+        self.assertFalse([name for name in there if 'fusion' in name or 'icp' in name])
+        self.assertIn(('rviz', 'rviz'), types(load('base_side.launch')))
+
     def test_mounts_are_published_on_robots_only(self):
         for name, arguments, published in (
                 ('robot.launch', {}, True), ('robot.launch', {'publish_mounts': 'false'}, False),

@@ -35,7 +35,8 @@ class WholeGraphTest(unittest.TestCase):
         cls.bag = simulate(cls.folder.name, 'drive', '--world', 'laboratory', '--path', 'fast',
                            '--duration', '12')
         cls.offline = os.path.join(cls.folder.name, 'offline')
-        run(program('slam_offline'), '--bag', cls.bag, '--out', cls.offline)
+        run(program('slam_offline'), '--bag', cls.bag, '--out', cls.offline,
+            '--set', 'scan_image_fusion/odom_max_wait=0.1')  # as live
         with rosbag.Bag(cls.bag) as bag:
             cls.scans = [message.header.stamp.to_nsec()
                          for _, message, _ in bag.read_messages('/scan')]

@@ -12,12 +12,12 @@ import yaml
 from tools import FOLDER, ToolTest, read, run
 
 SOURCE = os.environ["SCAN_IMAGE_SLAM_SOURCE"]
-DOCUMENTS = ["README.md", "docs/architecture.md", "docs/migration.md", "docs/paper.md",
+DOCUMENTS = ["README.md", "docs/architecture.md", "docs/live.md", "docs/migration.md", "docs/paper.md",
              "docs/parameters.md", "config/worlds/README.md"]
 NODES = ("scan_image_fusion", "bounded_icp", "mapper")
 TOOLS = ["slam_offline", "simulate", "evaluate_trajectory", "evaluate_relations",
          "list_parameters", "reproduce_table1", "coreslam_offline", "calibrate_camera_laser",
-         "check_bag"]
+         "check_bag", "measure_latency"]
 ENDINGS = ("md", "rst", "sh", "py", "h", "cpp", "launch", "rviz", "msg", "srv", "test")
 
 

@@ -7,6 +7,7 @@
 #include "scan_image_slam/ros/live_parameters.h"
 #include "scan_image_slam/ros/odometry_feed.h"
 #include "scan_image_slam/ros/time_guard.h"
+#include "scan_image_slam/ros/wake_up.h"
 #include <scan_image_slam/IcpModel.h>
 
 #include <memory>
@@ -57,7 +58,7 @@ class BoundedIcpNode {
   ros::Subscriber model_subscriber_;
   ros::Subscriber command_subscriber_;
   std::unique_ptr<OdometryFeed> odometry_;
-  ros::WallTimer release_timer_;
+  WakeUp wake_up_;
   LiveParameters live_parameters_;
 };
 

@@ -8,6 +8,7 @@
 #include "scan_image_slam/ros/odometry_feed.h"
 #include "scan_image_slam/ros/sensor_mount.h"
 #include "scan_image_slam/ros/time_guard.h"
+#include "scan_image_slam/ros/wake_up.h"
 
 #include <memory>
 #include <string>
@@ -70,7 +71,7 @@ class ScanImageFusionNode {
   ros::Subscriber compressed_subscriber_;
   image_transport::Subscriber image_subscriber_;
   std::unique_ptr<OdometryFeed> odometry_;
-  ros::WallTimer release_timer_;
+  WakeUp wake_up_;
   LiveParameters live_parameters_;
 };
 

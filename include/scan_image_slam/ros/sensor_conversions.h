@@ -20,12 +20,17 @@ namespace scan_image_slam {
 // Messages of the sensors as the core's types. All throw std::invalid_argument, saying what is
 // wrong, if a message can't be used.
 
-/// A stamp of zero means that a driver has set none: refused.
+/// A stamp of zero means that a driver has set none: refused, as more nanoseconds than a second
+/// has.
 Stamp ToStamp(const ros::Time& time);
 ros::Time ToRosTime(Stamp stamp);
 
-/// At least one beam and at most 100000, finite angles, an increment that is not zero.
+/// At least one beam and at most 100000, finite angles, an increment that is not zero, a minute at
+/// most.
 LaserScan ToLaserScan(const sensor_msgs::LaserScan& message);
+
+/// Finite, and near enough for a robot to be there; farther numbers would overflow in what follows.
+bool IsPlausiblePosition(double x, double y);
 
 Pose2 ToPose2(const geometry_msgs::Pose& pose);
 Eigen::Isometry3d ToIsometry(const geometry_msgs::Transform& transform);

@@ -306,6 +306,8 @@ ParameterSet MapperParameters(MapperOptions* o, LoopCloserOptions* loop, MapperN
   set.Add("autosave_period", &node->autosave_period, "s", {0.0, 86400.0},
           "the map is written to state_file so often, and at the end; 0: not at all");
   set.Add("resolution", &o->grid.resolution, "m", {0.001, 10.0}, "side of a cell of the map");
+  set.Add("max_map_cells", &o->grid.max_cells, "-", {1e4, 2e9},
+          "the map grows no farther, and that is told; a cell takes 8 bytes");
   set.Add("update_factor_occupied", &o->grid.update_factor_occupied, "-", {0.501, 0.999},
           "probability that a cell with one hit is occupied");
   set.Add("update_factor_free", &o->grid.update_factor_free, "-", {0.001, 0.499},

@@ -33,4 +33,12 @@ Statistics Summarize(std::vector<double> values) {
   return statistics;
 }
 
+double Percentile(std::vector<double> values, double percent) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double rank = std::ceil(percent * static_cast<double>(values.size()) / 100.0);
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
 }  // namespace scan_image_slam

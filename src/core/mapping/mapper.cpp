@@ -171,13 +171,16 @@ std::shared_ptr<const Keyframe> Mapper::AddModel(const FusedModel& model,
                                                  const MatchedMotion& match) {
   if (!growing()) return nullptr;
   const Pose2 map_from_base = map_from_start_ * match.start_from_base();
+  std::shared_ptr<const GridScan> scan;
+  if (WorthDrawing(match, map_from_base)) {
+    scan = std::make_shared<const GridScan>(
+        MakeGridScan(model, match.sweep_correction, options_.grid));
+    grid_.Add(*scan, map_from_base);  // first, as it throws if the map is as large as it may be
+  }
   std::shared_ptr<const Keyframe> keyframe;
   if (WorthKeeping(match)) keyframe = Keep(model, match);
-  if (WorthDrawing(match, map_from_base)) {
-    drawn_.push_back({std::make_shared<const GridScan>(
-                          MakeGridScan(model, match.sweep_correction, options_.grid)),
-                      Attach(map_from_base), map_from_base});
-    grid_.Add(*drawn_.back().scan, map_from_base);
+  if (scan) {
+    drawn_.push_back({scan, Attach(map_from_base), map_from_base});
     drawn_stamp_ = match.stamp;
     map_from_drawn_ = map_from_base;
   }
@@ -247,8 +250,8 @@ bool Mapper::Redraw(int max_scans) {
         std::abs(moved.theta) < kAngle) {
       continue;
     }
-    grid_.Remove(*drawn.scan, drawn.map_from_base);
     grid_.Add(*drawn.scan, map_from_base);
+    grid_.Remove(*drawn.scan, drawn.map_from_base);
     drawn.map_from_base = map_from_base;
     --max_scans;
   }

@@ -32,6 +32,7 @@ void OccupancyGridOptions::Validate() const {
   require(update_factor_free > 0.0 && update_factor_free < 0.5,
           "update_factor_free must lie between 0 and 0.5");
   require(std::isfinite(max_range) && max_range > 0.0, "max_range must be positive");
+  require(max_cells > 0, "max_map_cells must be positive");
 }
 
 OccupancyGrid::OccupancyGrid(const OccupancyGridOptions& options) : options_(options) {
@@ -92,21 +93,31 @@ void OccupancyGrid::Draw(const GridScan& scan, const Pose2& map_from_base, int s
 
 /// Makes room for what lies between two corners, given in cells, and marks it as changed.
 void OccupancyGrid::Reserve(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper) {
+  constexpr double kFarthest = 1e9;  // number of a cell; more would not be counted by int
+  if (!(lower.minCoeff() > -kFarthest && upper.maxCoeff() < kFarthest)) {
+    throw std::invalid_argument("the scan lies too far away to be drawn into the map");
+  }
   const IndexRange needed_x{static_cast<int>(std::floor(lower.x())) - 1,
                             static_cast<int>(std::floor(upper.x())) + 2};
   const IndexRange needed_y{static_cast<int>(std::floor(lower.y())) - 1,
                             static_cast<int>(std::floor(upper.y())) + 2};
+  const auto include = [](const IndexRange& range, const IndexRange& needed) {
+    return range.Including(needed.begin, kGrowth).Including(needed.end - 1, kGrowth);
+  };
+  const CellBox old = box_;
+  const CellBox grown = {include(old.x, needed_x), include(old.y, needed_y)};
+  const double size = static_cast<double>(grown.x.size()) * grown.y.size();
+  if (size > options_.max_cells) {
+    throw std::invalid_argument("the map would have to grow to " + std::to_string(grown.x.size()) +
+                                " x " + std::to_string(grown.y.size()) +
+                                " cells, more than max_map_cells");
+  }
   const auto unite = [](const IndexRange& a, const IndexRange& b) {
     if (a.size() == 0) return b;
     return IndexRange{std::min(a.begin, b.begin), std::max(a.end, b.end)};
   };
   changed_ = {unite(changed_.x, needed_x), unite(changed_.y, needed_y)};
-
-  const auto include = [](const IndexRange& range, const IndexRange& needed) {
-    return range.Including(needed.begin, kGrowth).Including(needed.end - 1, kGrowth);
-  };
-  const CellBox old = box_;
-  box_ = {include(old.x, needed_x), include(old.y, needed_y)};
+  box_ = grown;
   if (box_.x.size() == old.x.size() && box_.y.size() == old.y.size()) return;
   std::vector<Cell> cells(static_cast<std::size_t>(box_.x.size()) * box_.y.size());
   for (int y = old.y.begin; y < old.y.end; ++y) {

@@ -31,5 +31,16 @@ TEST(Summarize, HasNoErrorsWithoutValues) {
   EXPECT_TRUE(std::isnan(statistics.max));
 }
 
+TEST(Percentile, IsTheSmallestValueThatCoversTheShare) {
+  const std::vector<double> values = {30.0, 10.0, 40.0, 20.0};
+  EXPECT_EQ(Percentile(values, 1.0), 10.0);
+  EXPECT_EQ(Percentile(values, 25.0), 10.0);
+  EXPECT_EQ(Percentile(values, 25.1), 20.0);
+  EXPECT_EQ(Percentile(values, 50.0), 20.0);
+  EXPECT_EQ(Percentile(values, 99.0), 40.0);
+  EXPECT_EQ(Percentile(values, 100.0), 40.0);
+  EXPECT_TRUE(std::isnan(Percentile({}, 50.0)));
+}
+
 }  // namespace
 }  // namespace scan_image_slam

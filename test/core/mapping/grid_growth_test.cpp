@@ -3,6 +3,7 @@
 #include "scan_image_slam/core/mapping/occupancy_grid.h"
 #include "support_rooms.h"
 
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -36,6 +37,23 @@ std::vector<PlacedScan> RandomScans(int count) {
 }
 
 bool Contains(const CellBox& box, int x, int y) { return box.x.Contains(x) && box.y.Contains(y); }
+
+TEST(GridSize, IsBounded) {
+  OccupancyGridOptions options = MetreCells();
+  options.max_cells = 300 * 300;
+  OccupancyGrid grid(options);
+  const GridScan scan = OneBeam({0.0, 0.0}, {5.5, 0.5});
+  grid.Add(scan, kOrigin);
+  OccupancyGrid expected = grid;
+  // Wherever a scan lies that would make the grid too large, or that no grid holds.
+  for (const Pose2& far : {Pose2{0.0, 1000.0, 0.0}, Pose2{-1000.0, 0.0, 0.0},
+                           Pose2{1e300, 0.0, 0.0}, Pose2{0.0, -1e300, 0.0}}) {
+    EXPECT_THROW(grid.Add(scan, far), std::invalid_argument);
+  }
+  ExpectSameOccupancy(grid, expected);
+  grid.Add(scan, {10.0, 10.0, 0.0});
+  EXPECT_GT(grid.Occupancy(15, 10), 50);
+}
 
 class GridGrowth : public ::testing::TestWithParam<Pose2> {};
 

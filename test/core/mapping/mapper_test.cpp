@@ -3,6 +3,8 @@
 #include "core/geometry/pose_near.h"
 #include "mapper_fixtures.h"
 
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 
 namespace scan_image_slam {
@@ -147,6 +149,28 @@ TEST(Mapper, ResetForgetsPoseAndMap) {
   mapper.Reset();
   EXPECT_EQ(DrawnCells(mapper), 0);
   ExpectPoseNear(mapper.AddMatch(MatchAt(300, 300, {})).map_from_base, {});
+}
+
+TEST(Mapper, GoesOnWhenTheMapIsAsLargeAsItMayBe) {
+  MapperOptions options;
+  options.grid.max_cells = 300 * 300;
+  Mapper mapper(options);
+  constexpr Stamp kStart = 1000000000;
+  const auto add = [&](Stamp stamp, double x) {
+    const MatchedMotion match = MatchAt(kStart, stamp, {x, 0.0, 0.0});
+    EXPECT_DOUBLE_EQ(mapper.AddMatch(match).map_from_base.x, x);
+    return mapper.AddModel(WallAhead(2.0), match);
+  };
+  ASSERT_TRUE(add(kStart, 0.0));
+  const int known = DrawnCells(mapper);
+  EXPECT_THROW(add(kStart + 1, 1000.0), std::invalid_argument);
+  EXPECT_EQ(mapper.drawn().size(), 1U);
+  EXPECT_EQ(DrawnCells(mapper), known);
+  // The scan that was left out is no keyframe, so numbers have no gap.
+  const auto keyframe = add(kStart + 2, 1.0);
+  ASSERT_TRUE(keyframe);
+  EXPECT_EQ(keyframe->id, 1);
+  EXPECT_EQ(mapper.drawn().size(), 2U);
 }
 
 }  // namespace

@@ -58,6 +58,16 @@ TEST_F(OdometryGateTest, AScanDoesNotWaitForLong) {
   EXPECT_EQ(PopAt(kNow + 20 * kMs), 1);
 }
 
+TEST_F(OdometryGateTest, TellsHowLongTheNextScanMayWait) {
+  EXPECT_FALSE(gate_.TimeLeft(kNow));
+  gate_.Push(1, kScan, kNow);
+  gate_.Push(2, kScan + 25 * kMs, kNow + 5 * kMs);
+  EXPECT_DOUBLE_EQ(*gate_.TimeLeft(kNow + 8 * kMs), 0.012);
+  AddReading(&odometry_, kScan);
+  EXPECT_EQ(PopAt(kNow + 8 * kMs), 1);
+  EXPECT_DOUBLE_EQ(*gate_.TimeLeft(kNow + 8 * kMs), 0.017);
+}
+
 TEST_F(OdometryGateTest, WithoutEncodersOnlyTheFirstScanWaits) {
   gate_.Push(1, kScan, kNow);
   EXPECT_FALSE(PopAt(kNow + 19 * kMs));

@@ -17,7 +17,7 @@ struct OdometryInput {
   std::string base_frame = "base_link";
   std::string odom_frame = "odom";
   OdometrySource source = OdometrySource::kAuto;
-  double max_wait = 0.02;  ///< a scan waits so long for the encoders to reach its stamp [s]
+  double max_wait = 0.005;  ///< a scan waits so long for the encoders to reach its stamp [s]
 };
 
 /// Pose of a sensor on the robot, if it is not taken from TF: x forward, y left, z up, for a camera
@@ -43,6 +43,8 @@ struct ScanImageFusionNodeOptions {
 
 struct BoundedIcpNodeOptions {
   OdometryInput odometry;
+  /// Its scans have waited in scan_image_fusion already.
+  BoundedIcpNodeOptions() { odometry.max_wait = 0.002; }
 };
 
 struct MapperNodeOptions {

@@ -17,4 +17,8 @@ struct Statistics {
 
 Statistics Summarize(std::vector<double> values);
 
+/// The smallest of the values that so many percent (above 0, at most 100) of them do not exceed;
+/// NaN if there are none.
+double Percentile(std::vector<double> values, double percent);
+
 }  // namespace scan_image_slam

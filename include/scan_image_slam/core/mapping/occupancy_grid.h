@@ -22,6 +22,7 @@ struct OccupancyGridOptions {
   double update_factor_occupied = 0.75;  ///< probability that a cell with one hit is occupied [-]
   double update_factor_free = 0.4;       ///< the same for a cell that one beam has crossed [-]
   double max_range = 30.0;               ///< beams are drawn up to here [m]
+  int max_cells = 100000000;             ///< of the whole grid; each takes 8 bytes
   NoReturnPolicy no_return_policy = NoReturnPolicy::kIgnore;
   /// Throws std::invalid_argument, naming the field, if a value is out of range.
   void Validate() const;
@@ -58,7 +59,7 @@ class OccupancyGrid {
   void SetOptions(const OccupancyGridOptions& options);
 
   /// Draws a scan taken at `map_from_base`. A cell that holds a hit of the scan is not crossed by
-  /// it.
+  /// it. Throws std::invalid_argument, and changes nothing, if the grid would become too large.
   void Add(const GridScan& scan, const Pose2& map_from_base);
   /// Undoes Add with the same arguments.
   void Remove(const GridScan& scan, const Pose2& map_from_base);

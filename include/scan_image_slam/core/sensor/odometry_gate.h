@@ -43,6 +43,12 @@ class OdometryGate {
     return item;
   }
 
+  /// How long the next scan may still wait, if there is one, above 0 unless Pop() was left out [s].
+  std::optional<double> TimeLeft(Stamp now) const {
+    if (waiting_.empty()) return std::nullopt;
+    return max_wait_ - Seconds(now - waiting_.front().arrival);
+  }
+
   std::size_t size() const { return waiting_.size(); }
   int dropped() const { return dropped_; }
   void Clear() {

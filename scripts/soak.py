@@ -1,0 +1,133 @@
+#!/usr/bin/python3
+"""Measures running nodes for a long time, and writes what was seen as a page with pictures.
+
+Calls measure_latency and makes OUT/latency.json, report.md, latency.png and load.png of it. Ctrl-C
+ends the measurement and makes the page. Exit codes: those of measure_latency, 2 if a package is missing.
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+
+try:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+except ImportError as missing:
+    print("soak.py: %s; install it with: sudo apt install python3-matplotlib" % missing,
+          file=sys.stderr)
+    sys.exit(2)
+
+
+def measure(arguments, path):
+    command = ["rosrun", "scan_image_slam", "measure_latency"]
+    if arguments.programs:
+        command = [os.path.join(arguments.programs, "measure_latency")]
+    command += ["--json", path, "--period", str(arguments.period),
+                "--scan-topic", arguments.scan_topic, "--pose-topic", arguments.pose_topic]
+    if arguments.duration:
+        command += ["--duration", str(arguments.duration)]
+    process = subprocess.Popen(command)
+    while True:
+        try:
+            return process.wait()
+        except KeyboardInterrupt:
+            pass  # it got the signal, too, and writes what it has
+
+
+def ends(periods):
+    """When the periods ended [min]."""
+    seconds = 0.0
+    for period in periods:
+        seconds += period["seconds"]
+        yield seconds / 60
+
+
+def draw_latency(report, path):
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4))
+    rows = report["histogram"]
+    labels = ["more" if r["up_to_ms"] is None else "%g" % r["up_to_ms"] for r in rows]
+    left.bar(labels, [r["scans"] for r in rows], log=True)
+    left.tick_params(axis="x", rotation=60)
+    left.set(xlabel="from scan to pose, up to [ms]", ylabel="scans")
+    minutes = list(ends(report["periods"]))
+    for name in ("p50", "p99", "max"):
+        right.plot(minutes, [p["latency_ms"].get(name) for p in report["periods"]], label=name)
+    right.set(xlabel="time [min]", ylabel="from scan to pose [ms]", ylim=(0, None))
+    right.legend()
+    figure.tight_layout()
+    figure.savefig(path)
+
+
+def draw_load(report, path):
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4))
+    minutes = list(ends(report["periods"]))
+    for axis, key, label in zip(axes, ("cpu_percent", "memory_mb"),
+                                ("of one core [%]", "memory [MB]")):
+        for node in sorted(report["nodes"]):
+            values = [p["nodes"].get(node, {}).get(key, float("nan")) for p in report["periods"]]
+            axis.plot(minutes, values, label=node)
+        axis.set(xlabel="time [min]", ylabel=label, ylim=(0, None))
+    axes[0].legend()
+    figure.tight_layout()
+    figure.savefig(path)
+
+
+def growth(report, node):
+    """Of a node's memory over the second half, by its first and last quarter [MB per hour]."""
+    half = report["periods"][len(report["periods"]) // 2:]
+    values = [p["nodes"][node]["memory_mb"] for p in half if node in p["nodes"]]
+    quarter = len(values) // 2
+    if quarter == 0:
+        return None
+    first, last = sum(values[:quarter]) / quarter, sum(values[-quarter:]) / quarter
+    between = sum(p["seconds"] for p in half) * (len(values) - quarter) / len(values)
+    return (last - first) / between * 3600
+
+
+def page(report):
+    latency = report["latency_ms"]
+    lines = ["# Long run", "",
+             "%.2f hours, %d scans, %d of them without a pose." %
+             (report["seconds"] / 3600, report["scans"], report["dropped"]), "",
+             "From scan to pose [ms]: half within %.1f, 90 %% within %.1f, 99 %% within %.1f, "
+             "longest %.1f." % tuple(latency[k] for k in ("p50", "p90", "p99", "max")), "",
+             "![latency](latency.png)", "",
+             "| node | one core [%] | per scan [ms] | memory [MB] | at most [MB] "
+             "| growth in the second half [MB/h] |", "| --- | --- | --- | --- | --- | --- |"]
+    for node, load in sorted(report["nodes"].items()):
+        grown = growth(report, node)
+        lines.append("| %s | %.1f | %.2f | %.0f | %.0f | %s |" % (
+            node, load["cpu_percent"], load["cpu_ms_per_scan"], load["memory_mb"],
+            load["peak_memory_mb"], "" if grown is None else "%.1f" % grown))
+    return "\n".join(lines + ["", "![load](load.png)", ""])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--out", required=True, help="folder for the page")
+    parser.add_argument("--duration", type=float, help="[s]; without it, until Ctrl-C")
+    parser.add_argument("--period", type=float, default=10.0, help="between two looks [s]")
+    parser.add_argument("--scan-topic", default="scan")
+    parser.add_argument("--pose-topic", default="pose")
+    parser.add_argument("--programs", help="folder of measure_latency, if rosrun does not find it")
+    arguments = parser.parse_args()
+    os.makedirs(arguments.out, exist_ok=True)
+    path = os.path.join(arguments.out, "latency.json")
+    code = measure(arguments, path)
+    if code != 0:
+        return code
+    with open(path) as file:
+        report = json.load(file)
+    draw_latency(report, os.path.join(arguments.out, "latency.png"))
+    draw_load(report, os.path.join(arguments.out, "load.png"))
+    with open(os.path.join(arguments.out, "report.md"), "w") as file:
+        file.write(page(report))
+    print(os.path.join(arguments.out, "report.md"))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
