@@ -7,7 +7,6 @@ namespace scan_image_slam {
 namespace {
 
 constexpr std::size_t kMaxBeams = 100000;
-constexpr double kLongestSweep = 60.0;  // [s]
 
 Eigen::Quaterniond ToQuaternion(double x, double y, double z, double w) {
   const Eigen::Quaterniond q(w, x, y, z);

@@ -10,6 +10,8 @@
 namespace scan_image_slam {
 namespace {
 
+constexpr double kFastest = 1000.0;  // velocity of a base [m/s], [rad/s]
+
 /// Throws std::invalid_argument, naming the pose, if it can't be one of a robot.
 Pose2 FromPose2D(const geometry_msgs::Pose2D& pose, const std::string& name) {
   if (!IsPlausiblePosition(pose.x, pose.y) || !std::isfinite(pose.theta)) {
@@ -106,8 +108,12 @@ FusedModel FromMessage(const IcpModel& message) {
   if (!IsPlausiblePosition(message.laser_x, message.laser_y) || !std::isfinite(message.laser_yaw)) {
     throw std::invalid_argument("the pose of the laser is not finite, or out of this world");
   }
-  RequireFinite({message.sweep_velocity_x, message.sweep_velocity_y, message.sweep_velocity_yaw},
-                "the velocity");
+  for (const double velocity :
+       {message.sweep_velocity_x, message.sweep_velocity_y, message.sweep_velocity_yaw}) {
+    if (!(std::abs(velocity) <= kFastest)) {
+      throw std::invalid_argument("the velocity is not finite, or no robot's");
+    }
+  }
   model.stamp = ToStamp(message.header.stamp);
   model.base_from_laser = {message.laser_x, message.laser_y, message.laser_yaw};
   model.upside_down = message.upside_down;
@@ -123,8 +129,10 @@ FusedModel FromMessage(const IcpModel& message) {
     beam.edge_weight = message.edge_weights[i];
     beam.edge_sign = message.edge_signs[i];
     // Floats are finite together if their sum as doubles is.
-    if (!std::isfinite(beam.bearing + beam.time_offset + beam.edge_weight)) {
-      throw std::invalid_argument("beam " + std::to_string(i) + " is not finite");
+    if (!std::isfinite(beam.bearing + beam.edge_weight) ||
+        !(std::abs(beam.time_offset) <= kLongestSweep)) {
+      throw std::invalid_argument("beam " + std::to_string(i) +
+                                  " has a bearing, time or weight that can't be");
     }
     if (beam.hit()) {
       beam.point = {message.points_x[i], message.points_y[i]};
@@ -189,6 +197,9 @@ MatchedMotion FromMessage(const ScanMatch& message) {
       match.covariance(row, column) = message.covariance[3 * row + column];
     }
   }
+  RequireFinite(
+      {message.sweep_correction_x, message.sweep_correction_y, message.sweep_correction_yaw},
+      "the correction of the velocity");
   if (!match.covariance.allFinite()) {
     throw std::invalid_argument("the covariance is not finite");
   }

@@ -56,6 +56,7 @@ TEST(HostileMatch, IsRefused) {
   }
   EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->motion.theta = kNan; }), "");
   EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->covariance[4] = kNan; }), "");
+  EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->sweep_correction_yaw = kNan; }), "");
   EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->mode = 99; }), "");
 }
 
@@ -65,6 +66,8 @@ TEST(HostileModel, IsRefused) {
   EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->laser_yaw = kInfinity; }), "");
   EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->sweep_velocity_yaw = kNan; }), "");
   EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->time_offsets[0] = 1.0f / 0.0f; }), "");
+  EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->time_offsets[0] = -1e20f; }), "");
+  EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->sweep_velocity_x = 1e300; }), "");
   EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->points_y[0] = 1e30f; }), "");
   EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->edges[0].weight = kNan; }), "");
   EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->bearings.clear(); }), "");
