@@ -62,13 +62,17 @@ class RobotSimulatorTest(unittest.TestCase):
         self.assertLess(max(hits), math.hypot(11.4, 10) + 0.2, 'the laboratory is not larger')
 
     def test_image_and_camera_info_belong_together(self):
-        image = self.images.messages[0]
+        # Connections begin one after the other: what came by the first has no partner yet.
+        def info_of(image):
+            return next((m for m in self.infos.messages if m.header.stamp == image.header.stamp),
+                        None)
+        image = self.images.find(info_of)
+        info = info_of(image)
         self.assertEqual((image.width, image.height, image.encoding), (640, 480, 'bgr8'))
         self.assertEqual(image.header.frame_id, 'camera_optical_frame')
         self.assertEqual(len(image.data), 640 * 480 * 3)
         pixels = numpy.frombuffer(image.data, numpy.uint8)
         self.assertGreater(pixels.std(), 10, 'the picture shows something')
-        info = self.infos.find(lambda m: m.header.stamp == image.header.stamp, 'its camera_info')
         self.assertEqual((info.width, info.height), (640, 480))
         self.assertGreater(info.K[0], 0)
         self.assertEqual(info.header.frame_id, image.header.frame_id)
