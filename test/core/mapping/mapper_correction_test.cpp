@@ -120,21 +120,28 @@ TEST_F(MapperCorrection, IgnoresPosesOfMoreKeyframesThanThereAre) {
 /// The keyframe after so many matches in a row that failed.
 class MapperGap : public MapperCorrection {
  protected:
-  std::shared_ptr<const Keyframe> KeyframeAfter(int failures) {
-    const auto match_at = [&](int i, double x) {
-      return MatchAt(kStart, kStart + 1'100'000'000LL + 100'000'000LL * i,
-                     poses_.front().Inverse() * Pose2{x, 0.5, 0.0});
-    };
+  MatchedMotion NextMatch(double x) {
+    stamp_ += 100'000'000LL;
+    return MatchAt(kStart, stamp_, poses_.front().Inverse() * Pose2{x, 0.5, 0.0});
+  }
+
+  void Fail(int failures) {
     for (int i = 0; i < failures; ++i) {
-      MatchedMotion lost = match_at(i, 2.6);
+      MatchedMotion lost = NextMatch(2.6);
       lost.status = MatchStatus::kTooFewPoints;
       mapper_.AddMatch(lost);
       EXPECT_EQ(mapper_.AddModel(models_.back(), lost), nullptr);
     }
-    const MatchedMotion again = match_at(failures, 2.9);
+  }
+
+  std::shared_ptr<const Keyframe> KeyframeAfter(int failures) {
+    Fail(failures);
+    const MatchedMotion again = NextMatch(2.9);
     mapper_.AddMatch(again);
     return mapper_.AddModel(models_.back(), again);
   }
+
+  Stamp stamp_ = kStart + 1'000'000'000LL;
 };
 
 TEST_F(MapperGap, ABriefOneIsNoBreak) {
@@ -142,6 +149,14 @@ TEST_F(MapperGap, ABriefOneIsNoBreak) {
   ASSERT_NE(keyframe, nullptr);
   EXPECT_TRUE(keyframe->joined);
   EXPECT_LT(keyframe->covariance(0, 0), 0.01);
+}
+
+TEST_F(MapperGap, TwoBriefOnesAreNoBreak) {
+  Fail(4);
+  mapper_.AddMatch(NextMatch(2.6));
+  const auto keyframe = KeyframeAfter(4);
+  ASSERT_NE(keyframe, nullptr);
+  EXPECT_TRUE(keyframe->joined);
 }
 
 TEST_F(MapperGap, ALongOneIsMarkedAsABreak) {

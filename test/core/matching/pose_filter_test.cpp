@@ -109,6 +109,38 @@ TEST(PoseFilter, ADirectionWithoutInformationIsLeftToTheEncoders) {
   EXPECT_GT(std::sqrt(covariance(0, 0) / covariance(1, 1)), 10.0);
 }
 
+/// Moves as told, and lets an exact laser tell the true way.
+void DriveInARoom(PoseFilter* filter, double* true_way, double distance, double told_by_true) {
+  const double step = 0.05;
+  const Eigen::Matrix3d information = Noise(0.001, 0.001, 0.001).inverse();
+  for (double way = 0.0; way < distance; way += step) {
+    *true_way += step;
+    filter->Predict(filter->map_from_base(), Forward(step * told_by_true), Noise(1e-3, 1e-3, 1e-3));
+    filter->AddScan({*true_way, 0.0, 0.0}, information, Eigen::Vector3d::Zero());
+  }
+}
+
+TEST(PoseFilter, FollowsAScaleThatChanges) {
+  PoseFilter filter(Options());
+  filter.Start(Pose2());
+  double way = 0.0;
+  DriveInARoom(&filter, &way, 200.0, 1.0);
+  EXPECT_NEAR(filter.learned().encoder_scale, 1.0, 0.001);
+  DriveInARoom(&filter, &way, 150.0, 1.0 / 0.98);
+  EXPECT_NEAR(filter.learned().encoder_scale, 0.98, 0.004);
+}
+
+TEST(PoseFilter, AMotionThatTheEncodersDoNotTellTeachesNothingOfThem) {
+  PoseFilter filter(Options());
+  filter.Start(Pose2());
+  MotionPrediction kept = Forward(1.0);
+  kept.from_encoders = false;
+  filter.Predict(Pose2(), kept, Noise(0.1, 0.1, 0.1));
+  filter.AddScan({1.2, 0.0, 0.0}, Noise(1e-3, 1e-3, 1e-3).inverse(), Eigen::Vector3d::Zero());
+  EXPECT_NEAR(filter.map_from_base().x, 1.2, 1e-3);
+  EXPECT_EQ(filter.learned().encoder_scale, 1.0);
+}
+
 /// The range that the laser sees at a bearing on a wall along x, as the fusion gives it.
 void PutOnWall(double wall_y, const Pose2& map_from_base, ModelEdge* edge) {
   const double heading = edge->bearing + map_from_base.theta;
