@@ -220,9 +220,8 @@ int Main(int argc, char** argv) {
   for (std::string& word : words) own.push_back(word.data());
   Arguments arguments;
   CLI::App app(
-      "Measures running nodes: time from each scan to its pose, scans without a pose, processor "
-      "time "
-      "and memory of the nodes. Needs the master; remappings as for nodes.");
+      "Measures running nodes: time from each scan to its pose, scans without a pose, "
+      "processor time and memory of the nodes. Needs the master; remappings as for nodes.");
   app.add_option("--duration", arguments.duration, "[s]; without it, until it is stopped")
       ->check(CLI::PositiveNumber);
   app.add_option("--json", arguments.json,
