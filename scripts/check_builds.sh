@@ -25,6 +25,16 @@ quietly() {  # COMMAND...: shows what it prints only if it fails
   fi
 }
 
+printed() {  # TEXT COMMAND...: that the command prints this text
+  local text=$1
+  shift
+  quietly "$@"
+  grep -qF "$text" "$work/log" && return
+  cat "$work/log" >&2
+  say "no $text in what this prints: $*" >&2
+  return 1
+}
+
 copy_sources() {  # WORKSPACE
   mkdir -p "$1/src/scan_image_slam"
   (cd "$repository" && git ls-files -z --cached --others --exclude-standard |
@@ -97,25 +107,24 @@ done
 say "roslaunch of every launch file"
 for file in "$repository"/launch/*.launch; do
   name=$(basename "$file")
-  something=/mapper
+  node=/mapper
   case "$name" in
     bag.launch) arguments=("bag:=$work/run.bag") ;;
-    record.launch) arguments=(image_transport:=raw) something=/record ;;
+    record.launch) arguments=(image_transport:=raw) node=/record ;;
+    robot_side.launch) arguments=() node=/bounded_icp ;;
     # Drivers are not installed everywhere.
     tetra_ds3.launch) arguments=(start_laser:=false start_camera:=false) ;;
     *) arguments=() ;;
   esac
-  quietly sourced roslaunch --files scan_image_slam "$name" "${arguments[@]}"
-  grep -q "^$install/share/scan_image_slam/launch/$name" "$work/log"
-  quietly sourced roslaunch --nodes scan_image_slam "$name" "${arguments[@]}"
-  grep -q "$something" "$work/log"
+  printed "$install/share/scan_image_slam/launch/$name" \
+    sourced roslaunch --files scan_image_slam "$name" "${arguments[@]}"
+  printed "$node" sourced roslaunch --nodes scan_image_slam "$name" "${arguments[@]}"
 done
 
 say "plugins: nodelets, the panel of rviz"
 for kind in nodelet rviz; do
-  quietly sourced rospack plugins --attrib=plugin "$kind"
-  plugins=$(awk '$1 == "scan_image_slam" {print $2}' "$work/log")
-  [ "$plugins" = "$install/share/scan_image_slam/${kind}_plugins.xml" ]
+  plugins=$install/share/scan_image_slam/${kind}_plugins.xml
+  printed "scan_image_slam $plugins" sourced rospack plugins --attrib=plugin "$kind"
   library=$install/$(sed -n 's/.*<library path="\(.*\)">.*/\1/p' "$plugins").so
   quietly sourced ldd "$library"
   if grep 'not found' "$work/log" >&2; then exit 1; fi
