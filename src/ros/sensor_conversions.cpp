@@ -1,5 +1,7 @@
 #include "scan_image_slam/ros/sensor_conversions.h"
 
+#include "scan_image_slam/core/recording/number_text.h"
+
 #include <cmath>
 #include <stdexcept>
 
@@ -55,7 +57,7 @@ LaserScan ToLaserScan(const sensor_msgs::LaserScan& message) {
   }
   if (!(std::abs(message.time_increment) * static_cast<double>(message.ranges.size()) <
         kLongestSweep)) {
-    throw std::invalid_argument("the scan takes longer than " + std::to_string(kLongestSweep) +
+    throw std::invalid_argument("the scan takes longer than " + NumberText(kLongestSweep, 0) +
                                 " s: time_increment is wrong");
   }
   LaserScan scan;

@@ -6,12 +6,12 @@
 #include "run_tool.h"
 #include "scan_image_slam/core/evaluation/latency_record.h"
 #include "scan_image_slam/core/mapping/atomic_file.h"
+#include "scan_image_slam/core/recording/number_text.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <mutex>
 #include <stdexcept>
@@ -108,8 +108,7 @@ class Receiver {
 /// Waits for the first pose. Throws std::runtime_error, naming the topic, if none comes.
 void AwaitPose(const Receiver& receiver, double wait) {
   if (WaitUntil(Now() + wait, [&] { return receiver.begun(); })) return;
-  char seconds[20];
-  std::snprintf(seconds, sizeof seconds, "%g s", wait);
+  const std::string seconds = NumberText(wait, 3) + " s";
   if (!receiver.has_scan()) {
     throw std::runtime_error("no scan came on " + receiver.scan_topic() + " within " + seconds +
                              ": start the laser's driver or the bag, or name its topic by "

@@ -6,7 +6,6 @@
 #include "scan_image_slam/core/matching/bounded_icp.h"
 #include "scan_image_slam/ros/slam_messages.h"
 
-#include <cmath>
 #include <stdexcept>
 
 namespace scan_image_slam {
@@ -37,8 +36,7 @@ IcpModel TakeModel(FuzzInput* input) {
 }
 
 void Map(const FusedModel& model, const MatchedMotion& match, Mapper* mapper) {
-  const Pose2 pose = mapper->AddMatch(match).map_from_base;
-  Require(std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta));
+  Require(IsFinite(mapper->AddMatch(match).map_from_base));
   mapper->AddModel(model, match);
 }
 

@@ -4,7 +4,6 @@
 #include "scan_image_slam/core/sensor/odometry_buffer.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 
-#include <cmath>
 #include <stdexcept>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -19,8 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                  &pose.orientation.y, &pose.orientation.z, &pose.orientation.w);
       odometry.Add(stamp, ToPose2(pose));
       const auto between = odometry.ContinuousPose(ToStamp(input.TakeTime()));
-      Require(!between || (std::isfinite(between->x) && std::isfinite(between->y) &&
-                           std::isfinite(between->theta)));
+      Require(!between || IsFinite(*between));
     } catch (const std::invalid_argument&) {
     }
   }

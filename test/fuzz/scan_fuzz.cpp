@@ -21,7 +21,7 @@ sensor_msgs::LaserScan TakeScan(FuzzInput* input) {
 
 void Expect(const PipelineResult& result) {
   const Pose2& pose = result.pose.map_from_base;
-  Require(std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta));
+  Require(IsFinite(pose));
 }
 
 }  // namespace

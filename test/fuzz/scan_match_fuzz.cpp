@@ -5,7 +5,6 @@
 #include "scan_image_slam/ros/sensor_conversions.h"
 #include "scan_image_slam/ros/slam_messages.h"
 
-#include <cmath>
 #include <stdexcept>
 
 namespace scan_image_slam {
@@ -37,10 +36,6 @@ geometry_msgs::Pose TakePose(FuzzInput* input) {
   input->Fill(&pose.position.x, &pose.position.y, &pose.orientation.x, &pose.orientation.y,
               &pose.orientation.z, &pose.orientation.w);
   return pose;
-}
-
-bool IsFinite(const Pose2& pose) {
-  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ StampedPose ReadPose(NumberTable& table) {
 }
 
 void RequireFinite(const StampedPose& pose) {
-  if (std::isfinite(pose.pose.x) && std::isfinite(pose.pose.y) && std::isfinite(pose.pose.theta)) {
+  if (IsFinite(pose.pose)) {
     return;
   }
   throw std::invalid_argument("pose at " + FormatStamp(pose.stamp) + " s is not finite");

@@ -29,6 +29,10 @@ Pose2 Pose2::Inverse() const {
   return {-c * x - s * y, s * x - c * y, NormalizeAngle(-theta)};
 }
 
+bool IsFinite(const Pose2& pose) {
+  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta);
+}
+
 Pose2 operator*(const Pose2& a_from_b, const Pose2& b_from_c) {
   const Eigen::Vector2d t = a_from_b * b_from_c.translation();
   return {t.x(), t.y(), NormalizeAngle(a_from_b.theta + b_from_c.theta)};

@@ -96,8 +96,7 @@ inline PoseError LargestError(const std::vector<PipelineResult>& results, const 
 
 inline bool IsFinite(const PipelineResult& result) {
   const Pose2& p = result.pose.map_from_base;
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.theta) &&
-         result.pose.covariance.allFinite();
+  return IsFinite(p) && result.pose.covariance.allFinite();
 }
 
 }  // namespace scan_image_slam

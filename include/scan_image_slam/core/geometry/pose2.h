@@ -28,6 +28,9 @@ struct Pose2 {
   Pose2 Inverse() const;
 };
 
+/// True if none of its numbers is infinite or NaN.
+bool IsFinite(const Pose2& pose);
+
 /// Chains a_from_b * b_from_c = a_from_c; the angle of the result is in (-pi, pi].
 Pose2 operator*(const Pose2& a_from_b, const Pose2& b_from_c);
 
