@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
 #include <utility>
 
 #include <Eigen/LU>
@@ -16,6 +15,12 @@ Eigen::Matrix3d WithNoise(const Eigen::Matrix3d& information, const Eigen::Matri
   const Eigen::Matrix3d sum =
       (Eigen::Matrix3d::Identity() + information * noise).inverse() * information;
   return 0.5 * (sum + sum.transpose());
+}
+
+/// How far a pose is from the expected one, in standard deviations.
+double Deviation(const Pose2& expected_from_found, const Eigen::Matrix3d& covariance) {
+  const Eigen::Vector3d d(expected_from_found.x, expected_from_found.y, expected_from_found.theta);
+  return std::sqrt(d.dot(covariance.inverse() * d));
 }
 
 }  // namespace
@@ -37,17 +42,15 @@ bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
     poses_.push_back(added.previous_from_base);
   } else {
     poses_.push_back(poses_.back() * added.previous_from_base);
-    constraints_.push_back(
-        {id - 1, id, added.previous_from_base, added.covariance.inverse(), !added.joined});
-    Join(constraints_.back());
+    Join({id - 1, id, added.previous_from_base, added.covariance.inverse(), !added.joined});
   }
   if (!options_.enabled) return false;
   const std::vector<std::pair<int, int>> candidates = Candidates(id);
   if (candidates.empty()) return false;
   std::vector<GraphConstraint> closures;
-  const std::vector<double> way = WayInGraph(id);
+  const GraphWays ways(links_, id);
   for (const auto& [near_id, submap_id] : candidates) {
-    if (auto closure = Close(id, submap_id, near_id, way[near_id])) closures.push_back(*closure);
+    if (auto closure = Close(id, submap_id, near_id, ways)) closures.push_back(*closure);
   }
   if (closures.empty()) return false;
   for (const GraphConstraint& closure : closures) Join(closure);
@@ -59,14 +62,13 @@ void LoopCloser::Load(GraphMemory memory) {
   *this = LoopCloser(options_);
   for (auto& keyframe : memory.keyframes) Enter(std::move(keyframe));
   poses_ = std::move(memory.poses);
-  constraints_ = std::move(memory.constraints);
-  for (const GraphConstraint& constraint : constraints_) Join(constraint);
+  for (const GraphConstraint& constraint : memory.constraints) Join(constraint);
   closures_since_optimization_ = memory.closures_since_optimization;
 }
 
 void LoopCloser::Enter(std::shared_ptr<const Keyframe> keyframe) {
   keyframes_.push_back(std::move(keyframe));
-  neighbours_.emplace_back();
+  links_.emplace_back();
   ExtendSubmaps();
 }
 
@@ -76,8 +78,10 @@ void LoopCloser::Join(const GraphConstraint& constraint) {
   const auto [from, to] = std::make_pair(constraint.from, constraint.to);
   const double way =
       constraint.closes_loop() ? kRecognised : keyframes_[to]->way - keyframes_[from]->way;
-  neighbours_[from].push_back({to, way});
-  neighbours_[to].push_back({from, way});
+  const int index = static_cast<int>(constraints_.size());
+  links_[from].push_back({to, index, way});
+  links_[to].push_back({from, index, way});
+  constraints_.push_back(constraint);
 }
 
 void LoopCloser::ExtendSubmaps() {
@@ -112,27 +116,6 @@ Submap& LoopCloser::GetSubmap(int id) {
     cache_.erase(oldest);
   }
   return *cached.submap;
-}
-
-/// Length of the shortest way in the graph from a keyframe to all others, as a measure of how far
-/// they may have drifted from one another (Dijkstra).
-std::vector<double> LoopCloser::WayInGraph(int from) const {
-  std::vector<double> way(keyframes_.size(), std::numeric_limits<double>::infinity());
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  way[from] = 0.0;
-  open.push({0.0, from});
-  while (!open.empty()) {
-    const auto [distance, id] = open.top();
-    open.pop();
-    if (distance > way[id]) continue;
-    for (const auto& [next, length] : neighbours_[id]) {
-      if (distance + length >= way[next]) continue;
-      way[next] = distance + length;
-      open.push({way[next], next});
-    }
-  }
-  return way;
 }
 
 /// Keyframes of former visits near a keyframe and the submaps that hold them, nearest first.
@@ -184,7 +167,9 @@ LoopQuery LoopCloser::MakeQuery(int id, double way) const {
   return query;
 }
 
-std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near_id, double way) {
+std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near_id,
+                                                 const GraphWays& ways) {
+  const double way = ways.Length(near_id);
   const double half =
       std::min(options_.max_window, options_.min_window + options_.window_per_way * way);
   const double half_angle =
@@ -201,6 +186,10 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
             : FindInSubmap(MakeQuery(id, options_.query_way), &submap, {expected, half, half_angle},
                            options_.matcher);
   if (!match) return std::nullopt;
+  if (!track && Deviation(expected.Inverse() * match->submap_from_base,
+                          ways.Covariance(constraints_, near_id)) > options_.max_deviation) {
+    return std::nullopt;
+  }
   const double s = options_.closure_distance_stddev;
   const double a = options_.closure_angle_stddev;
   GraphConstraint closure;
@@ -214,20 +203,35 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
 }
 
 void LoopCloser::Optimize(const std::vector<GraphConstraint>& closures) {
-  constexpr double kSurprise = 9.0;  // squared standard deviations
+  constexpr double kSurprise = 3.0;  // standard deviations
   constexpr int kMaxClosures = 30;
   constexpr int kRecent = 40;
-  bool surprise = false;
-  for (const GraphConstraint& closure : closures) {
-    surprise = surprise || SquaredResidual(closure, poses_) > kSurprise;
-    constraints_.push_back(closure);
-  }
+  const bool surprise = std::any_of(closures.begin(), closures.end(),
+                                    [&](const auto& c) { return Contradicted(c, kSurprise); });
   closures_since_optimization_ += static_cast<int>(closures.size());
   const bool all = surprise || closures_since_optimization_ >= kMaxClosures;
   if (all) closures_since_optimization_ = 0;
   const int count = static_cast<int>(poses_.size());
   poses_ =
       OptimizeGraph(poses_, constraints_, all ? 1 : std::max(1, count - kRecent), options_.graph);
+  if (all && TakeBack()) poses_ = OptimizeGraph(poses_, constraints_, 1, options_.graph);
+}
+
+bool LoopCloser::Contradicted(const GraphConstraint& constraint, double deviation) const {
+  return SquaredResidual(constraint, poses_) > deviation * deviation;
+}
+
+/// Forgets the closures that the rest of the graph contradicts. Returns true if there are any.
+bool LoopCloser::TakeBack() {
+  std::vector<GraphConstraint> kept;
+  for (const GraphConstraint& c : constraints_) {
+    if (!c.closes_loop() || !Contradicted(c, options_.max_deviation)) kept.push_back(c);
+  }
+  if (kept.size() == constraints_.size()) return false;
+  constraints_.clear();
+  for (auto& links : links_) links.clear();
+  for (const GraphConstraint& constraint : kept) Join(constraint);
+  return true;
 }
 
 }  // namespace scan_image_slam

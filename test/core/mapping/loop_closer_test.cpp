@@ -107,5 +107,70 @@ TEST(LoopCloser, EqualRoomsOnTheWayBackAreThoseOfTheWayThere) {
   EXPECT_LT(LargestError(poses, drive.truth), 0.5);
 }
 
+/// Two corridors of 44 m side by side, joined at both ends; what stands in one of them stands in
+/// the other as well, 2 m further on.
+Room TwinCorridors() {
+  Room room = Rectangle(0, 0, 44, 5) + Rectangle(2, 2.4, 42, 2.6);
+  for (const double x : {4.0, 9.0, 17.0, 23.0, 31.0, 36.0}) {
+    for (const double y : {0.0, 2.0}) {
+      room =
+          room + Rectangle(x, y, x + 0.8, y + 0.4) + Rectangle(x + 2.0, y + 2.6, x + 2.8, y + 3.0);
+    }
+  }
+  return room;
+}
+
+TEST(LoopCloser, TwoEqualCorridorsSideBySideStayTwo) {
+  // Beyond a range of 6 m nothing tells how far the ends are.
+  const DriftingDrive drive =
+      Drive(TwinCorridors(), {{3, 1.2}, {43, 1.2}, {43, 3.8}, {1, 3.8}, {1, 1.2}, {43, 1.2}},
+            {1.001, 0.0}, 6.0);
+  LoopCloser closer{LoopCloserOptions()};
+  double largest = 0.0;
+  for (std::size_t i = 0; i < drive.keyframes.size(); ++i) {
+    closer.Add(drive.keyframes[i]);
+    const Eigen::Vector2d error = closer.poses()[i].translation() - drive.truth[i].translation();
+    largest = std::max(largest, error.norm());
+  }
+  EXPECT_GT(closer.closures(), 0);
+  EXPECT_LT(largest, 0.3);
+}
+
+TEST(LoopCloser, TakesAClosureBackThatLaterOnesContradict) {
+  const DriftingDrive drive = Drive(RingOfCorridors(), TwiceAroundTheRing(), {1.0, 0.0});
+  LoopCloser first{LoopCloserOptions()};
+  const std::size_t begin = drive.keyframes.size() / 4;
+  for (std::size_t i = 0; i < begin; ++i) first.Add(drive.keyframes[i]);
+  ASSERT_EQ(first.closures(), 0);
+  // The place 2 m ahead, with the trust of a good match.
+  GraphMemory memory = first.memory();
+  GraphConstraint wrong;
+  wrong.from = 2;
+  wrong.to = static_cast<int>(begin) - 3;
+  wrong.from_from_to = drive.truth[wrong.from].Inverse() * drive.truth[wrong.to];
+  wrong.from_from_to.x += 2.0;
+  wrong.information = Eigen::Vector3d(2500, 2500, 62500).asDiagonal();
+  wrong.robust = true;
+  memory.constraints.push_back(wrong);
+  LoopCloser closer{LoopCloserOptions()};
+  closer.Load(memory);
+  ASSERT_EQ(closer.closures(), 1);
+  const std::size_t half = 3 * drive.keyframes.size() / 4;
+  for (std::size_t i = begin; i < half; ++i) closer.Add(drive.keyframes[i]);
+  EXPECT_GT(closer.closures(), 10);
+  for (const GraphConstraint& c : closer.constraints()) {
+    EXPECT_FALSE(c.from == wrong.from && c.to == wrong.to);
+  }
+  // It goes on like one that has never had it.
+  LoopCloser other{LoopCloserOptions()};
+  other.Load(closer.memory());
+  for (std::size_t i = half; i < drive.keyframes.size(); ++i) {
+    closer.Add(drive.keyframes[i]);
+    other.Add(drive.keyframes[i]);
+  }
+  EXPECT_EQ(closer.closures(), other.closures());
+  EXPECT_LT(LargestError(closer.poses(), drive.truth), 0.1);
+}
+
 }  // namespace
 }  // namespace scan_image_slam

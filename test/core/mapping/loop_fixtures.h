@@ -34,7 +34,7 @@ inline Keyframe KeyframeAt(const Room& room, const Pose2& room_from_base, int id
 
 /// Drives along straight lines from corner to corner, a keyframe every 0.4 m; turns on the spot.
 inline DriftingDrive Drive(const Room& room, const std::vector<Eigen::Vector2d>& corners,
-                           const DriftPerKeyframe& drift) {
+                           const DriftPerKeyframe& drift, double max_range = 12.0) {
   constexpr double kStep = 0.4;
   DriftingDrive drive;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
@@ -47,8 +47,8 @@ inline DriftingDrive Drive(const Room& room, const std::vector<Eigen::Vector2d>&
   }
   double driven = 0.0;
   for (std::size_t i = 0; i < drive.truth.size(); ++i) {
-    auto keyframe =
-        std::make_shared<Keyframe>(KeyframeAt(room, drive.truth[i], static_cast<int>(i)));
+    auto keyframe = std::make_shared<Keyframe>(
+        KeyframeAt(room, drive.truth[i], static_cast<int>(i), max_range));
     keyframe->previous_from_base = drive.truth[i];
     if (i > 0) {
       Pose2 motion = drive.truth[i - 1].Inverse() * drive.truth[i];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scan_image_slam/core/mapping/graph_ways.h"
 #include "scan_image_slam/core/mapping/keyframe.h"
 #include "scan_image_slam/core/mapping/loop_matcher.h"
 #include "scan_image_slam/core/mapping/map_state.h"
@@ -28,6 +29,8 @@ struct LoopCloserOptions {
   double min_angle = 0.05;                ///< half of the search window [rad]
   double angle_per_way = 0.006;           ///< [rad/m]
   double max_angle = 0.6;                 ///< [rad]
+  double max_deviation = 5.0;             ///< of what a search finds from what the graph expects,
+                                          ///< in standard deviations [-]
   double track_window = 0.5;              ///< smaller windows need no search [m]
   double closure_distance_stddev = 0.02;  ///< of a recognised place, at best [m]
   double closure_angle_stddev = 0.004;    ///< [rad]
@@ -71,17 +74,18 @@ class LoopCloser {
   void Join(const GraphConstraint& constraint);
   void ExtendSubmaps();
   Submap& GetSubmap(int id);
-  std::vector<double> WayInGraph(int from) const;
   std::vector<std::pair<int, int>> Candidates(int id) const;
   LoopQuery MakeQuery(int id, double way) const;
-  std::optional<GraphConstraint> Close(int id, int submap_id, int near_id, double way);
+  std::optional<GraphConstraint> Close(int id, int submap_id, int near_id, const GraphWays& ways);
   void Optimize(const std::vector<GraphConstraint>& closures);
+  bool Contradicted(const GraphConstraint& constraint, double deviation) const;
+  bool TakeBack();
 
   LoopCloserOptions options_;
   std::vector<std::shared_ptr<const Keyframe>> keyframes_;
   std::vector<Pose2> poses_;
   std::vector<GraphConstraint> constraints_;
-  std::vector<std::vector<std::pair<int, double>>> neighbours_;
+  GraphLinks links_;
   std::vector<Range> submaps_;
   struct CachedSubmap {
     std::unique_ptr<Submap> submap;

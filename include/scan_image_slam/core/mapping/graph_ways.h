@@ -1,0 +1,44 @@
+#pragma once
+
+#include "scan_image_slam/core/mapping/pose_graph.h"
+
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace scan_image_slam {
+
+/// A constraint as one of its two nodes sees it.
+struct GraphLink {
+  int node = 0;        ///< at the other end
+  int constraint = 0;  ///< index
+  double way = 0.0;    ///< length, as a measure of how far both may have drifted apart [m]
+};
+
+/// Constraints by node: element i holds the links of node i.
+using GraphLinks = std::vector<std::vector<GraphLink>>;
+
+/// The shortest ways through a graph from one node to all others (Dijkstra).
+class GraphWays {
+ public:
+  GraphWays(const GraphLinks& links, int from);
+
+  /// Length of the way to a node [m]; infinite if there is none.
+  double Length(int to) const { return steps_[to].length; }
+
+  /// Covariance of the pose of `from` in the frame of `to` that the constraints along the way add
+  /// up to: (forward, left, turn) of `from` [m, m, rad].
+  Eigen::Matrix3d Covariance(const std::vector<GraphConstraint>& constraints, int to) const;
+
+ private:
+  /// The last step of the way to a node.
+  struct Step {
+    double length = std::numeric_limits<double>::infinity();
+    int before = -1;
+    int constraint = -1;
+  };
+  std::vector<Step> steps_;
+};
+
+}  // namespace scan_image_slam

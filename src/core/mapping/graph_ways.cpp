@@ -1,0 +1,56 @@
+#include "scan_image_slam/core/mapping/graph_ways.h"
+
+#include "scan_image_slam/core/geometry/covariance.h"
+
+#include <queue>
+#include <utility>
+
+#include <Eigen/LU>
+
+namespace scan_image_slam {
+namespace {
+
+/// Of the node `to` in the frame of the other one. Directions that a constraint tells nothing of
+/// are known to a kilometre.
+Eigen::Matrix3d CovarianceOf(const GraphConstraint& constraint) {
+  constexpr double kNothing = 1e-6;
+  return (constraint.information + kNothing * Eigen::Matrix3d::Identity()).inverse();
+}
+
+}  // namespace
+
+GraphWays::GraphWays(const GraphLinks& links, int from) : steps_(links.size()) {
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  steps_[from].length = 0.0;
+  open.push({0.0, from});
+  while (!open.empty()) {
+    const auto [length, node] = open.top();
+    open.pop();
+    if (length > steps_[node].length) continue;
+    for (const GraphLink& link : links[node]) {
+      const double longer = length + link.way;
+      if (longer >= steps_[link.node].length) continue;
+      steps_[link.node] = {longer, node, link.constraint};
+      open.push({longer, link.node});
+    }
+  }
+}
+
+Eigen::Matrix3d GraphWays::Covariance(const std::vector<GraphConstraint>& constraints,
+                                      int to) const {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (int node = to; steps_[node].before >= 0; node = steps_[node].before) {
+    const GraphConstraint& constraint = constraints[steps_[node].constraint];
+    const Eigen::Matrix3d step = CovarianceOf(constraint);
+    if (constraint.from == node) {
+      covariance = TransportCovariance(covariance, constraint.from_from_to) + step;
+    } else {
+      // Of the inverse motion: an error at its beginning.
+      covariance = TransportCovariance(covariance + step, constraint.from_from_to.Inverse());
+    }
+  }
+  return covariance;
+}
+
+}  // namespace scan_image_slam
