@@ -16,16 +16,20 @@ double Along(const Eigen::Vector2d& normal, const Eigen::Vector2d& offset) {
   return std::abs(normal.x() * offset.y() - normal.y() * offset.x());
 }
 
-/// What one point says of the wall.
-SurfaceElement ElementFrom(const SurfacePoint& point, const Eigen::Vector2d& place,
-                           const Eigen::Vector2d& normal, const RangeNoise& noise) {
-  SurfaceElement element;
-  element.position = place.cast<float>();
-  element.normal = normal.cast<float>();
-  element.information = static_cast<float>(
-      1.0 / (kMinVariance + noise.VarianceAcross(point.range, point.normal.dot(point.ray))));
-  element.angle_information = static_cast<float>(1.0 / point.angle_variance);
-  return element;
+/// The points that have a normal, in the map.
+std::vector<SurfacePoint> WithNormals(const std::vector<SurfacePoint>& points,
+                                      const Pose2& map_from_base) {
+  const RigidTransform2 transform(map_from_base);
+  std::vector<SurfacePoint> placed;
+  placed.reserve(points.size());
+  for (SurfacePoint p : points) {
+    if (!p.has_normal()) continue;
+    p.point = transform * p.point;
+    p.ray = transform.Rotate(p.ray);
+    p.normal = transform.Rotate(p.normal);
+    placed.push_back(p);
+  }
+  return placed;
 }
 
 }  // namespace
@@ -51,33 +55,40 @@ LocalMap::LocalMap(const LocalMapOptions& options, const RangeNoise& noise)
 
 void LocalMap::Insert(const std::vector<SurfacePoint>& points, const Pose2& map_from_base,
                       double way) {
-  const RigidTransform2 transform(map_from_base);
-  for (const SurfacePoint& point : points) {
-    if (!point.has_normal()) continue;
-    const Eigen::Vector2d place = transform * point.point;
-    const Eigen::Vector2d normal = transform.Rotate(point.normal);
-    int id = ElementOf(place, normal);
-    if (id >= 0) {
-      Merge(id, point, place, normal);
-    } else {
-      const SurfaceElement* nearest = Nearest(place);
-      const double too_near = 0.7 * options_.spacing;
-      if (nearest != nullptr && (nearest->position.cast<double>() - place).norm() < too_near) {
-        continue;
-      }
-      id = static_cast<int>(elements_.size());
-      elements_.push_back(ElementFrom(point, place, normal, noise_));
-      field_.Insert(id, place);
-    }
+  const std::vector<SurfacePoint> placed = WithNormals(points, map_from_base);
+  for (const SurfacePoint& point : placed) Begin(point);
+  for (const SurfacePoint& point : placed) {
+    const int id = ElementOf(point);
+    if (id < 0) continue;
+    Merge(id, point);
     elements_[id].last_seen = static_cast<float>(way);
   }
+}
+
+/// Begins an element, of which nothing is known yet, if a point belongs to none. All elements of a
+/// scan begin before points merge, so that each takes them from both sides. If the first one took
+/// those ahead of it alone, it would be off by its normal's error times half the spacing, always to
+/// the same side of the scan, and the heading would drift.
+void LocalMap::Begin(const SurfacePoint& point) {
+  if (ElementOf(point) >= 0) return;
+  const SurfaceElement* nearest = Nearest(point.point);
+  const double too_near = 0.7 * options_.spacing;
+  if (nearest != nullptr && (nearest->position.cast<double>() - point.point).norm() < too_near) {
+    return;
+  }
+  SurfaceElement element;
+  element.position = point.point.cast<float>();
+  element.normal = point.normal.cast<float>();
+  field_.Insert(static_cast<int>(elements_.size()), point.point);
+  elements_.push_back(element);
 }
 
 /// The element of the wall that a point lies on, or -1. Cells answer for their centres, so those
 /// beside are asked, too; of several elements it is the nearest along the wall, whatever the noise
 /// across it, so that one wall does not become two.
-int LocalMap::ElementOf(const Eigen::Vector2d& place, const Eigen::Vector2d& normal) const {
-  const Eigen::Vector2d across = options_.spacing * normal;
+int LocalMap::ElementOf(const SurfacePoint& point) const {
+  const Eigen::Vector2d& place = point.point;
+  const Eigen::Vector2d across = options_.spacing * point.normal;
   const Eigen::Vector2d along(-across.y(), across.x());
   int found = -1;
   double least = options_.spacing;
@@ -88,7 +99,7 @@ int LocalMap::ElementOf(const Eigen::Vector2d& place, const Eigen::Vector2d& nor
     if (id < 0) continue;
     const Eigen::Vector2d element_normal = elements_[id].normal.cast<double>();
     const Eigen::Vector2d offset = place - elements_[id].position.cast<double>();
-    if (element_normal.dot(normal) <= options_.min_normal_cosine ||
+    if (element_normal.dot(point.normal) <= options_.min_normal_cosine ||
         std::abs(element_normal.dot(offset)) >= options_.max_merge_offset ||
         Along(element_normal, offset) >= least) {
       continue;
@@ -100,21 +111,19 @@ int LocalMap::ElementOf(const Eigen::Vector2d& place, const Eigen::Vector2d& nor
 }
 
 /// Refines an element by a point that belongs to it.
-void LocalMap::Merge(int id, const SurfacePoint& point, const Eigen::Vector2d& place,
-                     const Eigen::Vector2d& normal) {
+void LocalMap::Merge(int id, const SurfacePoint& point) {
   SurfaceElement& element = elements_[id];
-  const SurfaceElement seen = ElementFrom(point, place, normal, noise_);
-  const Eigen::Vector2d element_normal = element.normal.cast<double>();
-  const double across = element_normal.dot(place - element.position.cast<double>());
-  const double gain = seen.information / (seen.information + element.information);
-  element.position += (gain * across * element_normal).cast<float>();
-  element.information += seen.information;
+  const Eigen::Vector2d normal = element.normal.cast<double>();
+  const double across = normal.dot(point.point - element.position.cast<double>());
+  const auto information = static_cast<float>(
+      1.0 / (kMinVariance + noise_.VarianceAcross(point.range, point.normal.dot(point.ray))));
+  element.information += information;
+  element.position += (information / element.information * across * normal).cast<float>();
 
-  const double angle_gain =
-      seen.angle_information / (seen.angle_information + element.angle_information);
-  element.normal =
-      ((1.0 - angle_gain) * element_normal + angle_gain * normal).normalized().cast<float>();
-  element.angle_information += seen.angle_information;
+  const auto angle_information = static_cast<float>(1.0 / point.angle_variance);
+  element.angle_information += angle_information;
+  const double gain = angle_information / element.angle_information;
+  element.normal = ((1.0 - gain) * normal + gain * point.normal).normalized().cast<float>();
 }
 
 double LocalMap::Distance(const Eigen::Vector2d& place, double max_distance) const {

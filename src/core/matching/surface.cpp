@@ -75,12 +75,12 @@ Line SideLine(const std::vector<PointSums>& sums, int begin, int end) {
 /// corner, where one side alone fits far better, that side.
 Line BestLine(const std::vector<PointSums>& sums, int left, int point, int right,
               double noise_variance) {
-  Line line = FitLine(sums[right + 1] - sums[left]);
+  const Line line = FitLine(sums[right + 1] - sums[left]);
   if (line.variance <= kSuspicious * noise_variance) return line;
-  for (const Line& side : {SideLine(sums, left, point + 1), SideLine(sums, point, right + 1)}) {
-    if (side.variance < kFarBetter * line.variance) line = side;
-  }
-  return line;
+  const Line before = SideLine(sums, left, point + 1);
+  const Line after = SideLine(sums, point, right + 1);
+  const Line& side = before.variance < after.variance ? before : after;
+  return side.variance < kFarBetter * line.variance ? side : line;
 }
 
 }  // namespace
@@ -97,8 +97,6 @@ std::vector<SurfacePoint> EstimateSurface(const FusedModel& model, const Surface
 
   const double squared_radius = options.radius * options.radius;
   const double noise_variance = noise.range_stddev * noise.range_stddev;
-  int left = 0;
-  int right = 0;
   for (int i = 0; i < count; ++i) {
     SurfacePoint& p = points[i];
     const auto is_neighbour = [&](int j) {
@@ -106,8 +104,10 @@ std::vector<SurfacePoint> EstimateSurface(const FusedModel& model, const Surface
              (std::abs(j - i) <= kMinNeighbours ||
               (points[j].point - p.point).squaredNorm() < squared_radius);
     };
-    while (left < i && !is_neighbour(left)) ++left;
-    right = std::max(right, i);
+    // Both ways from the point: windows that slide on would lag behind where noise moves points.
+    int left = i;
+    while (left > 0 && is_neighbour(left - 1)) --left;
+    int right = i;
     while (right + 1 < count && is_neighbour(right + 1)) ++right;
 
     if (right + 1 - left < kMinLinePoints) continue;

@@ -46,8 +46,11 @@ void ExpectPose(const Pose2& pose, const Pose2& expected, double distance, doubl
 TEST(LocalMapMatcher, FindsTheMotionBelowTheGridStep) {
   const Pose2 last{0.1, 0.2, 0.3};
   const Pose2 motion{0.123, 0.011, 0.037};
+  LocalMapMatcherOptions options;
+  options.refinement.along_gate =
+      0.1;  // the end of a wall, seen for the first time, is near enough
   for (const Pose2& error : {Pose2{0.03, 0.01, 0.01}, Pose2{-0.04, -0.01, 0.02}, Pose2{}}) {
-    LocalMapMatcher matcher = StartedAt(last);
+    LocalMapMatcher matcher = StartedAt(last, options);
     const MotionPrediction prediction = Predicted(motion * error);
     const MatchOutcome outcome = matcher.Match(SeenFrom(last * motion), last, prediction);
     ExpectPose(Result(last, prediction, outcome), last * motion, 1e-5, 1e-5);

@@ -76,6 +76,23 @@ TEST(LocalMap, AveragesPointsOfEqualInformation) {
   EXPECT_FLOAT_EQ(map.elements()[0].angle_information, 400.0f);
 }
 
+// All normals of a scan are wrong in one sense. An element has neighbours on both sides, which pull
+// it to and fro; from one side alone they would shift it by 4 mm.
+TEST(LocalMap, AnElementTakesThePointsOfAScanFromBothSides) {
+  std::vector<SurfacePoint> wall;
+  for (int i = 0; i <= 14; ++i) {
+    SurfacePoint p = PointAhead(2.0, 0.008 * i);
+    p.normal = Eigen::Vector2d(-std::cos(0.2), std::sin(0.2));
+    wall.push_back(p);
+  }
+  LocalMap map = EmptyMap();
+  map.Insert(wall, Pose2());
+  ASSERT_EQ(map.elements().size(), 3u);  // at 0, 0.056 and 0.112 m along the wall
+  const SurfaceElement& middle = map.elements()[1];
+  const Eigen::Vector2d offset = middle.position.cast<double>() - Eigen::Vector2d(2.0, 0.056);
+  EXPECT_NEAR(offset.norm(), 0.0, 1e-3);
+}
+
 TEST(LocalMap, WeighsPointsByTheirInformation) {
   // Under 60 degrees only half of the range's noise is across the wall: 1 / (0.25e-4 + 1e-6).
   SurfacePoint slanted = PointAhead(2.04, 0.0);

@@ -163,11 +163,13 @@ int Matched(const std::function<void(SurfacePoint*)>& change) {
 }
 
 TEST(RefineTerms, GatesPointsAcrossAndAlongTheWall) {
-  EXPECT_EQ(Matched([](SurfacePoint* p) { p->point.x() += 0.099; }), 1);
-  EXPECT_EQ(Matched([](SurfacePoint* p) { p->point.x() += 0.101; }), 0);
-  EXPECT_EQ(Matched([](SurfacePoint* p) { p->point.x() -= 0.101; }), 0);
-  EXPECT_EQ(Matched([](SurfacePoint* p) { p->point.y() += 0.099; }), 1);
-  EXPECT_EQ(Matched([](SurfacePoint* p) { p->point.y() += 0.101; }), 0);
+  const double across = RefinementOptions().gate;
+  const double along = RefinementOptions().along_gate;
+  EXPECT_EQ(Matched([&](SurfacePoint* p) { p->point.x() += across - 0.001; }), 1);
+  EXPECT_EQ(Matched([&](SurfacePoint* p) { p->point.x() += across + 0.001; }), 0);
+  EXPECT_EQ(Matched([&](SurfacePoint* p) { p->point.x() -= across + 0.001; }), 0);
+  EXPECT_EQ(Matched([&](SurfacePoint* p) { p->point.y() += along - 0.001; }), 1);
+  EXPECT_EQ(Matched([&](SurfacePoint* p) { p->point.y() += along + 0.001; }), 0);
   EXPECT_EQ(Matched([](SurfacePoint* p) { p->point.x() += 1.0; }), 0);
 }
 

@@ -215,5 +215,32 @@ TEST(RangeNoise, AddsTheNoiseAlongAndAcrossTheRay) {
   EXPECT_NEAR(noise.VarianceAcross(5.0, -0.5), 0.015 * 0.015 + 1e-4, 1e-18);
 }
 
+/// The same scan in a mirror: left is right, and the first beam the last.
+FusedModel Mirrored(FusedModel model) {
+  std::reverse(model.beams.begin(), model.beams.end());
+  for (ModelBeam& beam : model.beams) {
+    beam.bearing = -beam.bearing;
+    beam.point.y() = -beam.point.y();
+  }
+  return model;
+}
+
+TEST(EstimateSurface, DoesNotKnowLeftFromRight) {
+  TestRandom random(3);
+  TestLaser laser;
+  laser.range_stddev = 0.03;
+  const FusedModel scan = ModelOf(Rectangle(-2, -1.5, 3, 2.5) + Rectangle(1.2, 0.4, 1.8, 0.9),
+                                  Pose2{0.1, 0.2, 0.3}, 0, laser, &random);
+  const auto points = EstimateSurface(scan, kOptions, kNoise);
+  const auto mirrored = EstimateSurface(Mirrored(scan), kOptions, kNoise);
+  ASSERT_EQ(points.size(), mirrored.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SurfacePoint& other = mirrored[points.size() - 1 - i];
+    const Eigen::Vector2d back(other.normal.x(), -other.normal.y());
+    EXPECT_NEAR((points[i].normal - back).norm(), 0.0, 1e-9) << i;
+    EXPECT_NEAR(points[i].angle_variance, other.angle_variance, 1e-9) << i;
+  }
+}
+
 }  // namespace
 }  // namespace scan_image_slam

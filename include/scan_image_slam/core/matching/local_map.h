@@ -57,9 +57,9 @@ class LocalMap {
   void Clear();
 
  private:
-  int ElementOf(const Eigen::Vector2d& place, const Eigen::Vector2d& normal) const;
-  void Merge(int id, const SurfacePoint& point, const Eigen::Vector2d& place,
-             const Eigen::Vector2d& normal);
+  void Begin(const SurfacePoint& point);
+  int ElementOf(const SurfacePoint& point) const;
+  void Merge(int id, const SurfacePoint& point);
 
   LocalMapOptions options_;
   RangeNoise noise_;
