@@ -16,7 +16,9 @@ constexpr double kSilence = 2.0;         // after which a topic counts as gone [
 }  // namespace
 
 InputWatch::InputWatch(ros::NodeHandle node, ros::NodeHandle private_node)
-    : updater_(node, private_node, private_node.getNamespace()), begin_(ros::WallTime::now()) {
+    : updater_(node, private_node, private_node.getNamespace()),
+      master_watch_(node),
+      begin_(ros::WallTime::now()) {
   updater_.setHardwareID("none");
   updater_.add("inputs", this, &InputWatch::Diagnose);
   tell_timer_ = node.createWallTimer(ros::WallDuration(kLookPeriod), &InputWatch::Tell, this);
@@ -81,7 +83,15 @@ std::string InputWatch::DescribeTopic(const std::string& name, const Topic& topi
          std::to_string(static_cast<int>((ros::WallTime::now() - topic.last).toSec())) + " s";
 }
 
+std::string InputWatch::DescribeCrowd(const std::string& name, const Topic& topic) {
+  const std::uint32_t publishers = topic.publishers();
+  if (publishers < 2) return "";
+  return "topic " + name + " (" + topic.type + "): " + std::to_string(publishers) +
+         " nodes publish it, and only one can be right; rostopic info " + name + " names them";
+}
+
 void InputWatch::Tell(const ros::WallTimerEvent& event) {
+  SetProblem("master", master_watch_.Problem());
   const double age = (event.current_real - begin_).toSec();
   if (age < kFirstTell) return;
   begin_ = event.current_real - ros::WallDuration(kFirstTell - kTellPeriod);
@@ -89,6 +99,8 @@ void InputWatch::Tell(const ros::WallTimerEvent& event) {
     ROS_WARN("use_sim_time is set, but nothing publishes /clock (rosbag play --clock does)");
   }
   for (const auto& [name, topic] : topics_) {
+    const std::string crowd = DescribeCrowd(name, topic);
+    if (!crowd.empty()) ROS_WARN_STREAM(crowd);
     if (topic.messages > 0 && (event.current_real - topic.last).toSec() < kSilence) continue;
     const std::string text = "waiting for " + DescribeTopic(name, topic);
     if (topic.optional) {
@@ -106,6 +118,8 @@ void InputWatch::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   for (const auto& [name, topic] : topics_) {
     const bool alive = topic.messages > 0 && (ros::WallTime::now() - topic.last).toSec() < kSilence;
     status.add(name + " messages", topic.messages);
+    const std::string crowd = DescribeCrowd(name, topic);
+    if (!crowd.empty()) status.mergeSummary(DiagnosticStatus::WARN, crowd);
     if (alive) continue;
     status.mergeSummary(topic.optional ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR,
                         "waiting for " + DescribeTopic(name, topic));

@@ -8,7 +8,6 @@
 #include "scan_image_slam/ros/sensor_conversions.h"
 #include "scan_image_slam/ros/slam_messages.h"
 
-#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -57,7 +56,7 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
   });
   watch_.AddValue("paused", [this] { return paused_ ? "yes" : "no"; });
   watch_.AddValue("agreement with the loaded map", [this] { return std::to_string(agreement_); });
-  StartWithStateFile();
+  StartWithStateFile(node);
 
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   initial_pose_subscriber_ = node.subscribe("initialpose", 1, &MapperNode::OnInitialPose, this);
@@ -233,7 +232,6 @@ bool MapperNode::SaveMap(SaveMapRequest& request, SaveMapResponse& response) {
     const MapImage map = ToMapImage(mapper_.grid());
     if (map.width == 0) throw std::runtime_error("there is no map yet");
     const std::string stem = PathInside(options_.node.map_folder, request.name);
-    std::filesystem::create_directories(std::filesystem::path(stem).parent_path());
     response.path = WriteMap(map, stem);
     response.success = true;
   } catch (const std::exception& error) {

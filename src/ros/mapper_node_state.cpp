@@ -12,7 +12,7 @@
 namespace scan_image_slam {
 
 /// A map that was begun elsewhere, and where to keep it.
-void MapperNode::StartWithStateFile() {
+void MapperNode::StartWithStateFile(ros::NodeHandle node) {
   MapperNodeOptions& options = options_.node;
   if (options.state_file.empty()) {
     for (const auto& [needs, name] :
@@ -30,9 +30,8 @@ void MapperNode::StartWithStateFile() {
     ROS_WARN_STREAM("there is no " << options.state_file << ": the map begins empty");
   }
   if (options.localization || options.autosave_period <= 0.0) return;
-  autosave_timer_ =
-      ros::NodeHandle().createWallTimer(ros::WallDuration(options.autosave_period),
-                                        [this](const ros::WallTimerEvent&) { Autosave(); });
+  autosave_timer_ = node.createWallTimer(ros::WallDuration(options.autosave_period),
+                                         [this](const ros::WallTimerEvent&) { Autosave(); });
 }
 
 void MapperNode::Load(const MapState& state, const std::string& path) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <ros/console.h>
 #include <std_msgs/Bool.h>
@@ -17,9 +18,22 @@ constexpr double kStep = 0.002;          // of the simulation in real time [s]
 constexpr double kCommandTimeout = 0.5;  // a robot that is told nothing any more stops [s]
 constexpr std::uint32_t kQueue = 10;
 
+template <typename Message>
+Message WithFrame(Message message, const std::string& prefix) {
+  message.header.frame_id.insert(0, prefix);
+  return message;
+}
+
+template <typename Message>
+Message WithFrames(Message message, const std::string& prefix) {
+  message.child_frame_id.insert(0, prefix);
+  return WithFrame(std::move(message), prefix);
+}
+
 }  // namespace
 
-RobotSimulatorNode::RobotSimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node) {
+RobotSimulatorNode::RobotSimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : frame_prefix_(private_node.param<std::string>("frame_prefix", "")) {
   const auto world = private_node.param<std::string>("world", "laboratory");
   SimulationOptions options;
   options.seed = static_cast<std::uint64_t>(private_node.param("seed", 1));
@@ -29,7 +43,7 @@ RobotSimulatorNode::RobotSimulatorNode(ros::NodeHandle node, ros::NodeHandle pri
   options.follow_path = private_node.param("follow_path", true);
   options.start = static_cast<Stamp>(ros::Time::now().toNSec());
   simulation_ = std::make_unique<RobotSimulation>(LoadScenario(FindWorld(world)), options);
-  camera_info_ = ToMessage(simulation_->camera_lens(), options.start);
+  camera_info_ = WithFrame(ToMessage(simulation_->camera_lens(), options.start), frame_prefix_);
 
   scan_publisher_ = node.advertise<sensor_msgs::LaserScan>("scan", kQueue);
   odom_publisher_ = node.advertise<nav_msgs::Odometry>("odom", kQueue);
@@ -39,7 +53,11 @@ RobotSimulatorNode::RobotSimulatorNode(ros::NodeHandle node, ros::NodeHandle pri
     camera_info_publisher_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", kQueue);
     image_publisher_ = image_transport::ImageTransport(node).advertise("image_raw", 2);
   }
-  static_transforms_.sendTransform(StaticTransforms(*simulation_, options.start).transforms);
+  std::vector<geometry_msgs::TransformStamped> mounts;
+  for (const auto& mount : StaticTransforms(*simulation_, options.start).transforms) {
+    mounts.push_back(WithFrames(mount, frame_prefix_));
+  }
+  static_transforms_.sendTransform(mounts);
   command_subscriber_ = node.subscribe("cmd_vel", 1, &RobotSimulatorNode::OnCommand, this);
   timer_ = node.createWallTimer(ros::WallDuration(kStep),
                                 [this](const ros::WallTimerEvent&) { OnTimer(); });
@@ -67,19 +85,20 @@ void RobotSimulatorNode::OnCommand(const geometry_msgs::TwistConstPtr& message) 
 }
 
 void RobotSimulatorNode::Publish(const LaserScan& scan) {
-  scan_publisher_.publish(ToMessage(scan, simulation_->scenario().laser.Period()));
+  scan_publisher_.publish(
+      WithFrame(ToMessage(scan, simulation_->scenario().laser.Period()), frame_prefix_));
 }
 
 void RobotSimulatorNode::Publish(const CameraFrame& frame) {
-  const sensor_msgs::Image image = ToMessage(frame);
+  const sensor_msgs::Image image = WithFrame(ToMessage(frame), frame_prefix_);
   camera_info_.header.stamp = image.header.stamp;
   camera_info_publisher_.publish(camera_info_);
   image_publisher_.publish(image);
 }
 
 void RobotSimulatorNode::Publish(const OdometryReading& reading) {
-  odom_publisher_.publish(ToMessage(reading));
-  transforms_.sendTransform(ToTransform(reading));
+  odom_publisher_.publish(WithFrames(ToMessage(reading), frame_prefix_));
+  transforms_.sendTransform(WithFrames(ToTransform(reading), frame_prefix_));
 }
 
 void RobotSimulatorNode::Publish(const GroundTruth& truth) {

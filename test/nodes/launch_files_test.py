@@ -106,7 +106,8 @@ class LaunchFilesTest(unittest.TestCase):
         loaded = load('slam.launch', scan_topic='front/scan', image_topic='cam/image',
                       camera_info_topic='cam/info', odom_topic='wheel_odom', map_frame='world',
                       base_frame='base_footprint', odom_frame='wheels', odom_source='topic',
-                      image_transport='compressed')
+                      image_transport='compressed', rviz='true')
+        self.assertEqual(next(n.args for n in loaded.nodes if n.type == 'rviz')[-9:], ' -f world')
         self.assertEqual(remaps(loaded, 'scan_image_fusion'), {'scan': 'front/scan', 'image_raw': 'cam/image',
                                   'image_raw/compressed': 'cam/image/compressed',
                                   'camera_info': 'cam/info', 'odom': 'wheel_odom'})

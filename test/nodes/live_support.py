@@ -297,6 +297,11 @@ def compose(a, b):
     return (a[0] + c * b[0] - s * b[1], a[1] + s * b[0] + c * b[1], a[2] + b[2])
 
 
+def inverse(pose):
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    return (-c * pose[0] - s * pose[1], s * pose[0] - c * pose[1], -pose[2])
+
+
 class Player:
     """Plays a bag with its clock, once all readers have connected, so that nothing is missed."""
 

@@ -12,8 +12,8 @@ import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Pose2D, PoseWithCovarianceStamped
-from live_support import (START, WALLS, Console, Recorder, angle_difference, compose, make_model,
-                          publisher, stamp_of, wait_for, wait_subscribed, yaw_of, yaw_quaternion)
+from live_support import (START, WALLS, Console, Recorder, angle_difference, compose, inverse,
+                          make_model, publisher, stamp_of, wait_for, wait_subscribed, yaw_of, yaw_quaternion)
 from map_msgs.msg import OccupancyGridUpdate
 from nav_msgs.msg import MapMetaData, OccupancyGrid, Path
 from nav_msgs.srv import GetMap
@@ -27,11 +27,6 @@ PERIOD = 0.1  # [s]
 STEP = 0.1  # [m]
 FREE, OCCUPIED = 25, 65  # the limits of map_saver [%]
 VARIANCES = (1e-4, 4e-4, 9e-6)  # forward, left, turn
-
-
-def inverse(pose):
-    c, s = math.cos(pose[2]), math.sin(pose[2])
-    return (-c * pose[0] - s * pose[1], s * pose[0] - c * pose[1], -pose[2])
 
 
 def make_match(seconds, start, pose, odom):

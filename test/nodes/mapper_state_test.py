@@ -3,6 +3,7 @@
 
 import math
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -14,11 +15,11 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Pose2D, PoseWithCovarianceStamped
-from live_support import (START, Console, Recorder, angle_difference, compose, program, publisher,
-                          stamp_of, wait_for, yaw_of, yaw_quaternion)
+from live_support import (START, Console, Recorder, angle_difference, compose, inverse, program,
+                          publisher, stamp_of, wait_for, yaw_of, yaw_quaternion)
 from nav_msgs.srv import GetMap
 from scan_image_slam.msg import IcpModel, ScanMatch
-from scan_image_slam.srv import StateFile
+from scan_image_slam.srv import SaveMap, StateFile
 from std_srvs.srv import Trigger
 
 PERIOD = 0.1  # [s]
@@ -26,11 +27,6 @@ BEAMS = 720
 # A room that is another one when it is turned by any angle.
 CORNERS = numpy.array([(-4, -3), (4, -3), (4, 0), (1, 0), (1, 3), (-2, 3), (-4, 1)], float)
 FIRST = (-3.0, -2.0, 0.0)  # where the first drive begins, in the room
-
-
-def inverse(pose):
-    c, s = math.cos(pose[2]), math.sin(pose[2])
-    return (-c * pose[0] - s * pose[1], s * pose[0] - c * pose[1], -pose[2])
 
 
 def model_of(seconds, pose, scale=1.0):
@@ -106,13 +102,18 @@ class Robot:
         self.drive(16, (0.05, 0.0, math.pi / 16))
         self.drive(20)
 
+    def poses_between(self, begin, end=math.inf):
+        """Of the scans from `begin` until before `end` [s]."""
+        return [m for m in self.poses.messages
+                if begin - 1e-6 < m.header.stamp.to_sec() < end - 1e-6]
+
     def find(self):
         """Stands and looks until there is a pose; gives it."""
-        heard = len(self.poses.messages)
+        begin = self.time
 
         def found():
             self.scan()
-            return self.poses.messages[heard:]
+            return self.poses_between(begin)
         return wait_for(found, 'the robot to be found')[-1]
 
     def expected(self):
@@ -229,13 +230,13 @@ class MapperStateTest(unittest.TestCase):
         try:
             robot = Robot(space + '/')
             robot.wait_for_mapper()
-            diagnostics = Recorder('/diagnostics', DiagnosticArray)
             robot.begin((-1.0, -1.0, -0.7))
             self.expect_at(robot.find(), robot.expected())
             robot.drive(6)
             self.expect_at(robot.poses.at(robot.time - PERIOD), robot.expected())
             # Lifted and put down in a room that is not in the map; the matching does not notice.
             robot.scale = 3.0
+            diagnostics = Recorder('/diagnostics', DiagnosticArray)
 
             def is_lost():
                 robot.scan()
@@ -243,21 +244,66 @@ class MapperStateTest(unittest.TestCase):
                            for message in diagnostics.messages for status in message.status)
             wait_for(is_lost, 'the diagnostics to say that the robot is lost')
             self.console.said('is not where it was thought to be', node=space + '/mapper')
-            heard = len(robot.poses.messages)
+            lost = robot.time
             for _ in range(30):
                 robot.scan()
             # Carried back, to another place in the first room.
             robot.scale = 1.0
             robot.begin((-2.5, 0.5, 1.9))
-            first = robot.find()
-            self.assertEqual(robot.poses.messages.index(first), heard, 'none from the other room')
-            self.expect_at(first, robot.expected())
+            self.expect_at(robot.find(), robot.expected())
+            self.assertFalse(robot.poses_between(lost, robot.start_time), 'in the other room')
             get_map = rospy.ServiceProxy(space + '/dynamic_map', GetMap)
             self.assertEqual(self.known(get_map().map), self.known(saved))
             again = rospy.ServiceProxy(space + '/save_state', StateFile)(path + '.after')
             self.assertTrue(again.success, again.message)
             with open(path, 'rb') as before, open(again.path, 'rb') as after:
                 self.assertEqual(before.read(), after.read())
+        finally:
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(30), 0)
+
+    def test_a_full_disk_leaves_what_is_there(self):
+        folder = os.path.join(self.folder, 'full')
+        # Python ignores the signal of files that become too large, and hands that on.
+        process = subprocess.Popen(
+            [program('mapper'), '__ns:=/full', '_map_folder:=' + folder],
+            stdout=subprocess.DEVNULL, restore_signals=False)
+        try:
+            robot = Robot('/full/')
+            robot.wait_for_mapper()
+            save_map = rospy.ServiceProxy('/full/save_map', SaveMap)
+            save_state = rospy.ServiceProxy('/full/save_state', StateFile)
+
+            def saved():
+                """What the services answer, and what is in the folder then."""
+                replies = save_map('room'), save_state('room.state')
+                content = {}
+                for name in os.listdir(folder):
+                    with open(os.path.join(folder, name), 'rb') as file:
+                        content[name] = file.read()
+                return replies, content
+            robot.begin(FIRST)
+            robot.drive(3)
+            replies, before = saved()
+            self.assertEqual([reply.success for reply in replies], [True, True])
+            self.assertEqual(set(before), {'room.pgm', 'room.yaml', 'room.state'})
+            unlimited = resource.prlimit(process.pid, resource.RLIMIT_FSIZE)
+            # The pixels do not fit; the few lines of the yaml would.
+            resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (1000, unlimited[1]))
+            robot.drive(20)
+            replies, content = saved()
+            for reply, name in zip(replies, ('room.pgm', 'room.state')):
+                self.assertFalse(reply.success)
+                self.assertEqual(reply.message,
+                                 f"can't write {os.path.join(folder, name)}: File too large")
+            self.assertEqual(content, before)
+            robot.drive(3)  # there are poses as before
+            resource.prlimit(process.pid, resource.RLIMIT_FSIZE, unlimited)
+            replies, after = saved()
+            self.assertEqual([reply.success for reply in replies], [True, True])
+            self.assertEqual(set(after), set(before))
+            self.assertNotEqual(after['room.pgm'], before['room.pgm'])
+            self.assertGreater(len(after['room.state']), len(before['room.state']))
         finally:
             process.send_signal(signal.SIGINT)
             self.assertEqual(process.wait(30), 0)

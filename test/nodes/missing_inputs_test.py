@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What a node lacks at the start it names within five seconds, and again until it is there."""
+"""What a node lacks at the start it names within five seconds, and again until it is there; and what
+is there twice."""
 
 import signal
 import subprocess
@@ -7,6 +8,7 @@ import unittest
 
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from live_support import (START, Console, Recorder, make_odometry, program, publisher, room_scan,
                           static_transforms, transform, wait_for, wait_subscribed)
 from nav_msgs.msg import Odometry
@@ -65,6 +67,26 @@ class MissingInputsTest(unittest.TestCase):
     def test_the_topic_of_mapper(self):
         begin = self.start('mapper')
         self.expect_named(begin, 'waiting for topic /scan_match', 'nobody', node='/mapper')
+
+    def test_two_lasers_on_one_topic(self):
+        for name in ('right', 'wrong'):
+            self.start('robot_simulator', '__name:=' + name, '_images:=false')
+        begin = self.start('scan_image_fusion', '__name:=crowded_fusion')
+        self.expect_named(begin, '/scan', '2 nodes publish it', 'rostopic info /scan',
+                          node='/crowded_fusion')
+        diagnostics = Recorder('/diagnostics', DiagnosticArray)
+
+        def told(level, in_message):
+            def holds(message):
+                return any('crowded_fusion' in status.name and status.level == level and
+                           in_message(status.message) for status in message.status)
+            heard = len(diagnostics.messages)
+            wait_for(lambda: any(holds(m) for m in diagnostics.messages[heard:]), 'diagnostics')
+        told(DiagnosticStatus.WARN, lambda text: 'topic /scan' in text and '2 nodes' in text)
+        wrong = self.nodes.pop(1)
+        wrong.send_signal(signal.SIGINT)
+        self.assertEqual(wrong.wait(30), 0)
+        told(DiagnosticStatus.WARN, lambda text: '2 nodes' not in text)  # but there is no camera
 
     def test_the_clock_of_a_recording(self):
         rospy.set_param('/use_sim_time', True)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scan_image_slam/ros/master_watch.h"
+
 #include <functional>
 #include <map>
 #include <string>
@@ -11,8 +13,8 @@
 
 namespace scan_image_slam {
 
-/// Watches what a node needs, and says in plain words what is missing: on the console every five
-/// seconds until it is there, and in /diagnostics.
+/// Watches what a node needs, the master included, and says in plain words what is missing or too
+/// much: on the console every five seconds until it is mended, and in /diagnostics.
 class InputWatch {
  public:
   /// /diagnostics names the node after `private_node`, with its namespace.
@@ -45,9 +47,11 @@ class InputWatch {
   };
   void Tell(const ros::WallTimerEvent&);
   std::string DescribeTopic(const std::string& name, const Topic& topic) const;
+  static std::string DescribeCrowd(const std::string& name, const Topic& topic);
   void Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   diagnostic_updater::Updater updater_;
+  MasterWatch master_watch_;
   std::map<std::string, Topic> topics_;
   std::map<std::string, std::string> problems_;
   struct Refusal {

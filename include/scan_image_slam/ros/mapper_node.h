@@ -59,7 +59,7 @@ class MapperNode {
   bool SaveMap(SaveMapRequest& request, SaveMapResponse& response);
   bool SaveState(StateFileRequest& request, StateFileResponse& response);
   bool LoadState(StateFileRequest& request, StateFileResponse& response);
-  void StartWithStateFile();
+  void StartWithStateFile(ros::NodeHandle node);
   void Load(const MapState& state, const std::string& path);
   void Autosave();
   void FinishAutosave();

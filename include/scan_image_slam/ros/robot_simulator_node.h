@@ -18,8 +18,9 @@ namespace scan_image_slam {
 /// evaluation only. `simulation_finished` says that the path is driven.
 class RobotSimulatorNode {
  public:
-  /// Parameters: world (name or file), path, seed, images, noise, follow_path. Throws
-  /// std::runtime_error or std::invalid_argument if one is wrong.
+  /// Parameters: world (name or file), path, seed, images, noise, follow_path, and frame_prefix,
+  /// which goes before the names of all frames. Throws std::runtime_error or std::invalid_argument
+  /// if one is wrong.
   RobotSimulatorNode(ros::NodeHandle node, ros::NodeHandle private_node);
 
  private:
@@ -30,6 +31,7 @@ class RobotSimulatorNode {
   void Publish(const OdometryReading& reading);
   void Publish(const GroundTruth& truth);
 
+  std::string frame_prefix_;  ///< but for the world's, in which the true pose is told
   std::unique_ptr<RobotSimulation> simulation_;
   sensor_msgs::CameraInfo camera_info_;
   bool finished_ = false;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <list>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -19,15 +20,25 @@ namespace {
   throw std::runtime_error(what + " " + path + ": " + std::strerror(errno));
 }
 
-/// Closes a file, and removes it unless it has taken its place.
+void MakeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw std::runtime_error("can't make " + folder.string() + ": " + error.message());
+}
+
+/// The new content beside a file whose place it takes in the end; removed if that does not happen.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& beside) : path_(beside + ".XXXXXX") {
+  explicit TemporaryFile(const std::string& target)
+      : target_(target),
+        folder_(std::filesystem::absolute(target).parent_path()),
+        path_(target + ".XXXXXX") {
+    MakeFolder(folder_);
     file_ = mkstemp(path_.data());
-    if (file_ < 0) Fail("can't write", path_);
+    if (file_ < 0) Fail("can't write", target_);
   }
   ~TemporaryFile() {
-    if (file_ >= 0) close(file_);
+    close(file_);
     if (!path_.empty()) unlink(path_.c_str());
   }
   TemporaryFile(const TemporaryFile&) = delete;
@@ -37,42 +48,44 @@ class TemporaryFile {
     for (std::size_t done = 0; done < content.size();) {
       const ssize_t written = write(file_, content.data() + done, content.size() - done);
       if (written < 0 && errno == EINTR) continue;
-      if (written < 0) Fail("can't write", path_);
+      if (written < 0) Fail("can't write", target_);
       done += static_cast<std::size_t>(written);
     }
     constexpr mode_t kForAllToRead = 0644;
-    if (fchmod(file_, kForAllToRead) != 0 || fsync(file_) != 0) Fail("can't write", path_);
+    if (fchmod(file_, kForAllToRead) != 0 || fsync(file_) != 0) Fail("can't write", target_);
   }
 
-  void TakePlaceOf(const std::string& path) {
-    if (rename(path_.c_str(), path.c_str()) != 0) Fail("can't replace", path);
+  void TakePlace() {
+    if (rename(path_.c_str(), target_.c_str()) != 0) Fail("can't replace", target_);
     path_.clear();
+    SyncFolder();
   }
 
  private:
+  /// So that the new name is on the disk, too. Not all file systems can; then nothing is lost.
+  void SyncFolder() const {
+    const int folder = open(folder_.c_str(), O_RDONLY | O_DIRECTORY);
+    if (folder < 0) return;
+    fsync(folder);
+    close(folder);
+  }
+
+  std::string target_;
+  std::string folder_;
   std::string path_;
   int file_ = -1;
 };
 
-/// So that the new name is on the disk, too. Not all file systems can; then nothing is lost.
-void SyncFolder(const std::string& path) {
-  const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY);
-  if (folder < 0) return;
-  fsync(folder);
-  close(folder);
-}
-
 }  // namespace
 
+void ReplaceFiles(const std::vector<FileContent>& files) {
+  std::list<TemporaryFile> written;
+  for (const FileContent& file : files) written.emplace_back(file.path).Write(file.content);
+  for (TemporaryFile& file : written) file.TakePlace();
+}
+
 void ReplaceFile(const std::string& path, const std::string& content) {
-  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error("can't make " + folder.string() + ": " + error.message());
-  TemporaryFile file(path);
-  file.Write(content);
-  file.TakePlaceOf(path);
-  SyncFolder(folder.string());
+  ReplaceFiles({{path, content}});
 }
 
 std::string ReadWholeFile(const std::string& path) {

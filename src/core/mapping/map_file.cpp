@@ -1,11 +1,9 @@
 #include "scan_image_slam/core/mapping/map_file.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include "scan_image_slam/core/mapping/atomic_file.h"
+
 #include <iomanip>
 #include <sstream>
-#include <stdexcept>
 
 namespace scan_image_slam {
 namespace {
@@ -25,13 +23,6 @@ std::string Quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? "''" : std::string(1, c);
   return quoted + "'";
-}
-
-void WriteFile(const std::string& path, const std::string& content) {
-  std::ofstream file(path, std::ios::binary);
-  file << content;
-  file.flush();
-  if (!file) throw std::runtime_error("can't write " + path + ": " + std::strerror(errno));
 }
 
 }  // namespace
@@ -77,8 +68,8 @@ std::string WriteMap(const MapImage& map, const std::string& stem) {
           static_cast<char>(Grey(map.occupancy[static_cast<std::size_t>(row) * map.width + x])));
     }
   }
-  WriteFile(stem + ".pgm", "P5\n" + std::to_string(map.width) + " " + std::to_string(map.height) +
-                               "\n255\n" + pixels);
+  const std::string header =
+      "P5\n" + std::to_string(map.width) + " " + std::to_string(map.height) + "\n255\n";
   std::ostringstream yaml;
   yaml.imbue(std::locale::classic());
   yaml << std::setprecision(10);
@@ -86,7 +77,7 @@ std::string WriteMap(const MapImage& map, const std::string& stem) {
   yaml << "image: " << Quoted(name + ".pgm") << "\nresolution: " << map.resolution << "\norigin: ["
        << map.origin_x << ", " << map.origin_y << ", 0.0]\nnegate: 0\noccupied_thresh: 0.65\n"
        << "free_thresh: 0.196\n";
-  WriteFile(stem + ".yaml", yaml.str());
+  ReplaceFiles({{stem + ".pgm", header + pixels}, {stem + ".yaml", yaml.str()}});
   return stem + ".yaml";
 }
 

@@ -84,6 +84,27 @@ TEST_F(AtomicFile, ThatCannotBeWrittenWholeLeavesTheOldOne) {
   EXPECT_EQ(Files(), 1);
 }
 
+TEST_F(AtomicFile, OfSeveralNoneIsReplacedIfOneCannotBeWritten) {
+  const std::string small = folder_ + "/small";
+  const std::string large = folder_ + "/large";
+  ReplaceFiles({{small, "old"}, {large, "old, too"}});
+  {
+    const SmallFilesOnly full(1000);
+    try {
+      ReplaceFiles({{small, "new"}, {large, std::string(5000, 'n')}});
+      ADD_FAILURE();
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()), "can't write " + large + ": File too large");
+    }
+  }
+  EXPECT_EQ(ReadWholeFile(small), "old");
+  EXPECT_EQ(ReadWholeFile(large), "old, too");
+  EXPECT_EQ(Files(), 2);
+  ReplaceFiles({{small, "new"}, {large, std::string(5000, 'n')}});
+  EXPECT_EQ(ReadWholeFile(small), "new");
+  EXPECT_EQ(ReadWholeFile(large), std::string(5000, 'n'));
+}
+
 TEST_F(AtomicFile, NamesWhatIsInTheWay) {
   fs::create_directories(folder_ + "/state");
   EXPECT_NE(Error(folder_ + "/state", "x").find(folder_ + "/state"), std::string::npos);

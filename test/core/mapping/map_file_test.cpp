@@ -91,10 +91,16 @@ TEST_F(MapFile, TellsOccupancyFromTheFirstPercentOn) {
   }
 }
 
-TEST_F(MapFile, NamesTheFileInAFolderThatIsNotThere) {
-  const std::string error = ErrorOf(Stem("missing/room"));
-  EXPECT_NE(error.find(Stem("missing/room.pgm")), std::string::npos) << error;
-  EXPECT_NE(error.find("No such file or directory"), std::string::npos) << error;
+TEST_F(MapFile, MakesTheFolder) {
+  EXPECT_EQ(WriteMap(SixCells(), Stem("missing/room")), Stem("missing/room.yaml"));
+  EXPECT_TRUE(std::filesystem::exists(Stem("missing/room.pgm")));
+}
+
+TEST_F(MapFile, NamesTheFileInAFolderThatCannotBe) {
+  std::ofstream(Stem("file")) << "no folder";
+  const std::string error = ErrorOf(Stem("file/room"));
+  EXPECT_NE(error.find(Stem("file")), std::string::npos) << error;
+  EXPECT_NE(error.find("Not a directory"), std::string::npos) << error;
 }
 
 TEST_F(MapFile, NamesTheFileThatIsAFolder) {

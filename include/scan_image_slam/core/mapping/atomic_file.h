@@ -1,12 +1,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace scan_image_slam {
 
-/// Replaces a file as a whole: after a crash at any moment it holds the old content or the new one.
-/// Missing folders are made. Throws std::runtime_error that names the file; the old one is then as
-/// it was.
+struct FileContent {
+  std::string path;
+  std::string content;
+};
+
+/// Replaces files as a whole: after a crash at any moment each holds the old content or the new
+/// one. Missing folders are made. Nothing is replaced before all are written: throws
+/// std::runtime_error that names the file that cannot be; the old ones are then as they were.
+void ReplaceFiles(const std::vector<FileContent>& files);
 void ReplaceFile(const std::string& path, const std::string& content);
 
 /// All bytes of a file. Throws std::runtime_error that names it.

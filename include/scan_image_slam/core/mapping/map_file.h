@@ -22,7 +22,8 @@ MapImage ToMapImage(const OccupancyGrid& grid);
 
 /// Writes `stem`.pgm and `stem`.yaml as map_saver does: 254 free, 0 occupied, 205 unknown; an
 /// empty map as one unknown cell, as there are no pictures without pixels. Returns the path of the
-/// yaml. Throws std::runtime_error, naming the file, if one can't be written.
+/// yaml. Throws std::runtime_error, naming the file, if one can't be written; neither is replaced
+/// before both are written.
 std::string WriteMap(const MapImage& map, const std::string& stem);
 
 }  // namespace scan_image_slam
