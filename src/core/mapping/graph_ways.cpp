@@ -3,6 +3,7 @@
 #include "scan_image_slam/core/geometry/covariance.h"
 
 #include <queue>
+#include <set>
 #include <utility>
 
 #include <Eigen/LU>
@@ -19,15 +20,18 @@ Eigen::Matrix3d CovarianceOf(const GraphConstraint& constraint) {
 
 }  // namespace
 
-GraphWays::GraphWays(const GraphLinks& links, int from) : steps_(links.size()) {
+GraphWays::GraphWays(const GraphLinks& links, int from, const std::vector<int>& targets)
+    : steps_(links.size()) {
+  std::set<int> left(targets.begin(), targets.end());
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   steps_[from].length = 0.0;
   open.push({0.0, from});
-  while (!open.empty()) {
+  while (!open.empty() && !left.empty()) {
     const auto [length, node] = open.top();
     open.pop();
     if (length > steps_[node].length) continue;
+    left.erase(node);
     for (const GraphLink& link : links[node]) {
       const double longer = length + link.way;
       if (longer >= steps_[link.node].length) continue;

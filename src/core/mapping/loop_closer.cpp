@@ -48,7 +48,9 @@ bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
   const std::vector<std::pair<int, int>> candidates = Candidates(id);
   if (candidates.empty()) return false;
   std::vector<GraphConstraint> closures;
-  const GraphWays ways(links_, id);
+  std::vector<int> near_ids;
+  for (const auto& [near_id, submap_id] : candidates) near_ids.push_back(near_id);
+  const GraphWays ways(links_, id, near_ids);
   for (const auto& [near_id, submap_id] : candidates) {
     if (auto closure = Close(id, submap_id, near_id, ways)) closures.push_back(*closure);
   }
@@ -205,11 +207,13 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
 void LoopCloser::Optimize(const std::vector<GraphConstraint>& closures) {
   constexpr double kSurprise = 3.0;  // standard deviations
   constexpr int kMaxClosures = 30;
+  constexpr int kMaxShare = 20;  // one in so many, so that the time does not grow with its square
   constexpr int kRecent = 40;
   const bool surprise = std::any_of(closures.begin(), closures.end(),
                                     [&](const auto& c) { return Contradicted(c, kSurprise); });
   closures_since_optimization_ += static_cast<int>(closures.size());
-  const bool all = surprise || closures_since_optimization_ >= kMaxClosures;
+  const bool all = surprise || closures_since_optimization_ >=
+                                   std::max(kMaxClosures, this->closures() / kMaxShare);
   if (all) closures_since_optimization_ = 0;
   const int count = static_cast<int>(poses_.size());
   poses_ =

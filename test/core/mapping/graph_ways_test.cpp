@@ -35,7 +35,7 @@ GraphLinks LinksOf(const std::vector<GraphConstraint>& constraints,
 // error.
 TEST(GraphWays, AnErrorOfATurnGrowsWithTheWayAfterIt) {
   const std::vector<GraphConstraint> chain = {Motion(0, 1, {3, 0, 0}), Motion(1, 2, {3, 0, 0})};
-  const GraphWays ways(LinksOf(chain, {3.0, 3.0}), 2);
+  const GraphWays ways(LinksOf(chain, {3.0, 3.0}), 2, {0});
   EXPECT_DOUBLE_EQ(ways.Length(0), 6.0);
   const Eigen::Matrix3d covariance = ways.Covariance(chain, 0);
   EXPECT_NEAR(covariance(0, 0), 2 * kForward, 1e-6);
@@ -48,7 +48,8 @@ TEST(GraphWays, AnErrorOfATurnGrowsWithTheWayAfterIt) {
 // end of it, and both motions lie behind the first turn.
 TEST(GraphWays, TheWayBackHasTheErrorsOfTheInverseMotions) {
   const std::vector<GraphConstraint> chain = {Motion(0, 1, {3, 0, 0}), Motion(1, 2, {3, 0, 0})};
-  const Eigen::Matrix3d covariance = GraphWays(LinksOf(chain, {3.0, 3.0}), 0).Covariance(chain, 2);
+  const Eigen::Matrix3d covariance =
+      GraphWays(LinksOf(chain, {3.0, 3.0}), 0, {2}).Covariance(chain, 2);
   EXPECT_NEAR(covariance(0, 0), 2 * kForward, 1e-6);
   EXPECT_NEAR(covariance(1, 1), 2 * kLeft + (9 + 36) * kTurn, 1e-6);
   EXPECT_NEAR(covariance(2, 2), 2 * kTurn, 1e-6);
@@ -57,7 +58,8 @@ TEST(GraphWays, TheWayBackHasTheErrorsOfTheInverseMotions) {
 TEST(GraphWays, AfterAQuarterTurnForwardIsWhatWasLeft) {
   const std::vector<GraphConstraint> chain = {Motion(0, 1, {0, 0, 0}),
                                               Motion(1, 2, {0, 0, M_PI / 2})};
-  const Eigen::Matrix3d covariance = GraphWays(LinksOf(chain, {1.0, 1.0}), 2).Covariance(chain, 0);
+  const Eigen::Matrix3d covariance =
+      GraphWays(LinksOf(chain, {1.0, 1.0}), 2, {0}).Covariance(chain, 0);
   EXPECT_NEAR(covariance(0, 0), kLeft + kForward, 1e-6);
   EXPECT_NEAR(covariance(1, 1), kForward + kLeft, 1e-6);
   EXPECT_NEAR(covariance(0, 1), 0.0, 1e-6);
@@ -68,7 +70,7 @@ TEST(GraphWays, TakesTheShortestWay) {
   std::vector<GraphConstraint> graph;
   for (int i = 0; i < 4; ++i) graph.push_back(Motion(i, i + 1, {1, 0, 0}));
   graph.push_back(Motion(0, 3, {3, 0, 0}));
-  const GraphWays ways(LinksOf(graph, {1.0, 1.0, 1.0, 1.0, 0.5}), 0);
+  const GraphWays ways(LinksOf(graph, {1.0, 1.0, 1.0, 1.0, 0.5}), 0, {2, 3, 4, 0});
   EXPECT_DOUBLE_EQ(ways.Length(3), 0.5);
   EXPECT_DOUBLE_EQ(ways.Length(2), 1.5);
   EXPECT_DOUBLE_EQ(ways.Length(4), 1.5);
@@ -79,14 +81,14 @@ TEST(GraphWays, TakesTheShortestWay) {
 
 TEST(GraphWays, WhatNoConstraintJoinsIsInfinitelyFar) {
   const GraphLinks links(2);
-  EXPECT_TRUE(std::isinf(GraphWays(links, 0).Length(1)));
+  EXPECT_TRUE(std::isinf(GraphWays(links, 0, {1}).Length(1)));
 }
 
 TEST(GraphWays, ADirectionThatAConstraintTellsNothingOfIsUnknown) {
   GraphConstraint corridor = Motion(0, 1, {1, 0, 0});
   corridor.information(0, 0) = 0.0;
   const Eigen::Matrix3d covariance =
-      GraphWays(LinksOf({corridor}, {1.0}), 1).Covariance({corridor}, 0);
+      GraphWays(LinksOf({corridor}, {1.0}), 1, {0}).Covariance({corridor}, 0);
   EXPECT_GT(covariance(0, 0), 1e5);
   EXPECT_NEAR(covariance(1, 1), kLeft, 1e-6);
 }

@@ -19,16 +19,17 @@ struct GraphLink {
 /// Constraints by node: element i holds the links of node i.
 using GraphLinks = std::vector<std::vector<GraphLink>>;
 
-/// The shortest ways through a graph from one node to all others (Dijkstra).
+/// The shortest ways through a graph from one node to some others (Dijkstra).
 class GraphWays {
  public:
-  GraphWays(const GraphLinks& links, int from);
+  /// Looks no farther than the farthest of `targets`.
+  GraphWays(const GraphLinks& links, int from, const std::vector<int>& targets);
 
-  /// Length of the way to a node [m]; infinite if there is none.
+  /// Length of the way to a target [m]; infinite if there is none.
   double Length(int to) const { return steps_[to].length; }
 
-  /// Covariance of the pose of `from` in the frame of `to` that the constraints along the way add
-  /// up to: (forward, left, turn) of `from` [m, m, rad].
+  /// Covariance of the pose of `from` in the frame of the target `to` that the constraints along
+  /// the way add up to: (forward, left, turn) of `from` [m, m, rad].
   Eigen::Matrix3d Covariance(const std::vector<GraphConstraint>& constraints, int to) const;
 
  private:
