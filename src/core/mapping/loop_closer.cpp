@@ -49,6 +49,7 @@ bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
   if (candidates.empty()) return false;
   std::vector<GraphConstraint> closures;
   std::vector<int> near_ids;
+  near_ids.reserve(candidates.size());
   for (const auto& [near_id, submap_id] : candidates) near_ids.push_back(near_id);
   const GraphWays ways(links_, id, near_ids);
   for (const auto& [near_id, submap_id] : candidates) {

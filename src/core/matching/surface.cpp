@@ -75,7 +75,7 @@ Line SideLine(const std::vector<PointSums>& sums, int begin, int end) {
 /// corner, where one side alone fits far better, that side.
 Line BestLine(const std::vector<PointSums>& sums, int left, int point, int right,
               double noise_variance) {
-  const Line line = FitLine(sums[right + 1] - sums[left]);
+  Line line = FitLine(sums[right + 1] - sums[left]);
   if (line.variance <= kSuspicious * noise_variance) return line;
   const Line before = SideLine(sums, left, point + 1);
   const Line after = SideLine(sums, point, right + 1);
