@@ -78,8 +78,8 @@ sourced() {  # COMMAND...: as a user who has sourced the workspace
 }
 
 say "tools without any set-up"
-for tool in slam_offline simulate evaluate_trajectory evaluate_relations list_parameters \
-  check_bag; do
+for tool in slam_offline simulate evaluate_trajectory evaluate_relations evaluate_map \
+  list_parameters check_bag; do
   quietly clean "$programs/$tool" --help
 done
 quietly clean "$programs/simulate" --world corridor --out "$work/run.bag" --duration 1
@@ -87,6 +87,7 @@ quietly clean "$programs/slam_offline" --bag "$work/run.bag" --out "$work/out" -
 quietly clean "$programs/evaluate_trajectory" "$work/run.gt.tum" "$work/out/online.tum" \
   --plot "$work/out/errors.png"
 [ -s "$work/out/errors.png" ]
+quietly clean "$programs/evaluate_map" corridor "$work/run.gt.tum" "$work/out/map.yaml"
 
 say "rosrun of every program"
 found=0

@@ -3,8 +3,8 @@
 #include "fuzz_input.h"
 #include "scan_image_slam/core/config/config_file.h"
 #include "scan_image_slam/core/config/slam_parameters.h"
+#include "scan_image_slam/core/config/yaml_section.h"
 #include "scan_image_slam/core/simulation/scenario.h"
-#include "scan_image_slam/core/simulation/yaml_section.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

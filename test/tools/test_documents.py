@@ -17,7 +17,7 @@ DOCUMENTS = ["README.md", "docs/architecture.md", "docs/live.md", "docs/migratio
 NODES = ("scan_image_fusion", "bounded_icp", "mapper")
 TOOLS = ["slam_offline", "simulate", "evaluate_trajectory", "evaluate_relations",
          "list_parameters", "reproduce_table1", "coreslam_offline", "calibrate_camera_laser",
-         "check_bag", "measure_latency"]
+         "check_bag", "measure_latency", "evaluate_map"]
 ENDINGS = ("md", "rst", "sh", "py", "h", "cpp", "launch", "rviz", "msg", "srv", "test")
 
 
@@ -191,7 +191,7 @@ class Documents(ToolTest):
     def test_every_option_is_in_the_readme(self):
         text = document("README.md")
         for tool in ("slam_offline", "simulate", "evaluate_trajectory", "evaluate_relations",
-                     "check_bag"):
+                     "evaluate_map", "check_bag"):
             for option in options_of(tool) - {"--help"}:
                 with self.subTest(tool=tool, option=option):
                     self.assertIn(option, text)

@@ -35,6 +35,7 @@ OPTIONS = {
     "simulate": ["--world", "--out", "--seed", "--duration", "--no-noise", "--no-images"],
     "evaluate_trajectory": ["--plot", "--align"],
     "evaluate_relations": ["--tolerance"],
+    "evaluate_map": ["world", "truth", "map", "--pose", "--tolerance", "--plot"],
     "list_parameters": ["--help"],
     "measure_latency": ["--duration", "--json", "--period", "--wait", "--scan-topic", "--pose-topic"],
 }

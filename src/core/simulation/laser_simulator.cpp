@@ -15,6 +15,35 @@ double IncidenceOf(const LaserHit& hit) { return std::acos(std::min(hit.cosine, 
 
 }  // namespace
 
+LaserFan MakeFan(const LaserSimulatorOptions& options, const MotionHistory& history,
+                 Stamp first_beam, Stamp start) {
+  LaserFan fan;
+  const int rays = options.mixed_pixels ? kRaysPerSpot : 1;
+  fan.rays_per_beam = rays;
+  fan.half_width = options.mixed_pixels ? options.beam_width / 2.0 : 0.0;
+  fan.rays.resize(static_cast<std::size_t>(options.beams) * rays);
+  fan.bearings.resize(options.beams);
+  fan.times.resize(options.beams);
+  const double side = options.upside_down ? -1.0 : 1.0;
+  const double first_heading = history.At(first_beam).world_from_base.theta;
+  for (int beam = 0; beam < options.beams; ++beam) {
+    const Stamp time = first_beam + FromSeconds(beam * options.TimeIncrement());
+    const Pose2 world_from_base = history.At(time).world_from_base;
+    const Eigen::Vector2d origin = world_from_base * options.mount.Planar().translation();
+    const double heading = first_heading + NormalizeAngle(world_from_base.theta - first_heading);
+    const double bearing =
+        heading + options.mount.yaw + side * (options.angle_min + beam * options.angle_increment);
+    fan.bearings[beam] = bearing;
+    fan.times[beam] = Seconds(time - start);
+    for (int i = 0; i < rays; ++i) {
+      const double angle = bearing + (rays > 1 ? (i - 1) * fan.half_width : 0.0);
+      fan.rays[static_cast<std::size_t>(beam) * rays + i] = {origin,
+                                                             {std::cos(angle), std::sin(angle)}};
+    }
+  }
+  return fan;
+}
+
 LaserSimulator::LaserSimulator(const World& world, const LaserSimulatorOptions& options,
                                std::uint64_t seed, Stamp start)
     : world_(world),
@@ -32,34 +61,6 @@ Stamp LaserSimulator::FirstBeam() const {
 
 Stamp LaserSimulator::NextComplete() const {
   return FirstBeam() + FromSeconds((options_.beams - 1) * options_.TimeIncrement());
-}
-
-LaserFan LaserSimulator::MakeFan(const MotionHistory& history, Stamp first_beam) const {
-  LaserFan fan;
-  const int rays = options_.mixed_pixels ? kRaysPerSpot : 1;
-  fan.rays_per_beam = rays;
-  fan.half_width = options_.mixed_pixels ? options_.beam_width / 2.0 : 0.0;
-  fan.rays.resize(static_cast<std::size_t>(options_.beams) * rays);
-  fan.bearings.resize(options_.beams);
-  fan.times.resize(options_.beams);
-  const double side = options_.upside_down ? -1.0 : 1.0;
-  const double first_heading = history.At(first_beam).world_from_base.theta;
-  for (int beam = 0; beam < options_.beams; ++beam) {
-    const Stamp time = first_beam + FromSeconds(beam * options_.TimeIncrement());
-    const Pose2 world_from_base = history.At(time).world_from_base;
-    const Eigen::Vector2d origin = world_from_base * options_.mount.Planar().translation();
-    const double heading = first_heading + NormalizeAngle(world_from_base.theta - first_heading);
-    const double bearing = heading + options_.mount.yaw +
-                           side * (options_.angle_min + beam * options_.angle_increment);
-    fan.bearings[beam] = bearing;
-    fan.times[beam] = Seconds(time - start_);
-    for (int i = 0; i < rays; ++i) {
-      const double angle = bearing + (rays > 1 ? (i - 1) * fan.half_width : 0.0);
-      fan.rays[static_cast<std::size_t>(beam) * rays + i] = {origin,
-                                                             {std::cos(angle), std::sin(angle)}};
-    }
-  }
-  return fan;
 }
 
 LaserHit LaserSimulator::Returned(const LaserHits& hits, std::size_t ray, double chance) const {
@@ -149,7 +150,7 @@ SimulatedScan LaserSimulator::Measure(const MotionHistory& history) {
   result.first_beam = FirstBeam();
   result.complete = NextComplete();
   ++count_;
-  const LaserHits hits = caster_.Cast(MakeFan(history, result.first_beam));
+  const LaserHits hits = caster_.Cast(MakeFan(options_, history, result.first_beam, start_));
   LaserScan& scan = result.scan;
   scan.angle_min = options_.angle_min;
   scan.angle_increment = options_.angle_increment;

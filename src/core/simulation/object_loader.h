@@ -1,8 +1,8 @@
 #pragma once
 
+#include "scan_image_slam/core/config/yaml_section.h"
 #include "scan_image_slam/core/simulation/wall_builder.h"
 #include "scan_image_slam/core/simulation/world.h"
-#include "scan_image_slam/core/simulation/yaml_section.h"
 
 namespace scan_image_slam {
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "scan_image_slam/core/config/yaml_section.h"
 #include "scan_image_slam/core/simulation/base_options.h"
 #include "scan_image_slam/core/simulation/camera_options.h"
 #include "scan_image_slam/core/simulation/laser_options.h"
-#include "scan_image_slam/core/simulation/yaml_section.h"
 
 #include <cmath>
 #include <sstream>

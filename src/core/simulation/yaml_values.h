@@ -1,7 +1,7 @@
 #pragma once
 
+#include "scan_image_slam/core/config/yaml_section.h"
 #include "scan_image_slam/core/simulation/world.h"
-#include "scan_image_slam/core/simulation/yaml_section.h"
 
 #include <string>
 #include <vector>

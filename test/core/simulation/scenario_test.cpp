@@ -1,6 +1,6 @@
 #include "scan_image_slam/core/simulation/scenario.h"
 
-#include "scan_image_slam/core/simulation/yaml_section.h"
+#include "scan_image_slam/core/config/yaml_section.h"
 
 #include <cmath>
 #include <filesystem>

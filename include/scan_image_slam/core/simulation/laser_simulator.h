@@ -18,6 +18,10 @@ struct SimulatedScan {
   Stamp arrival = 0;     ///< when the computer gets it [ns]
 };
 
+/// The rays of one sweep that begins at `first_beam`; time 0 of the world is `start`.
+LaserFan MakeFan(const LaserSimulatorOptions& options, const MotionHistory& history,
+                 Stamp first_beam, Stamp start);
+
 /// A scanning laser on a moving robot: every beam starts where the laser is when it fires.
 class LaserSimulator {
  public:
@@ -33,7 +37,6 @@ class LaserSimulator {
   SimulatedScan Measure(const MotionHistory& history);
 
  private:
-  LaserFan MakeFan(const MotionHistory& history, Stamp first_beam) const;
   /// One range before coding, or +Inf if nothing comes back [m].
   double Range(const LaserHits& hits, std::size_t beam);
   double Disturb(const LaserHit& hit, double mixed_range);

@@ -1,4 +1,4 @@
-#include "scan_image_slam/core/simulation/yaml_section.h"
+#include "scan_image_slam/core/config/yaml_section.h"
 
 #include <cmath>
 #include <fstream>
