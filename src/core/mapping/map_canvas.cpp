@@ -75,6 +75,7 @@ void MapCanvas::FillCell(int column, int row, const cv::Scalar& colour) {
 void MapCanvas::DrawLine(const std::vector<Eigen::Vector2d>& points, const cv::Scalar& colour,
                          int thickness) {
   std::vector<cv::Point> pixels;
+  pixels.reserve(points.size());
   for (const Eigen::Vector2d& point : points) pixels.push_back(At(point));
   cv::polylines(picture_, pixels, false, colour, thickness, cv::LINE_AA, kSubpixelBits);
 }
