@@ -138,6 +138,13 @@ TEST(SeenPlan, GlassIsSeenHeadOnAndThrough) {
   EXPECT_GT(ReachOnEast(plan), 1.9);  // behind the glass
 }
 
+TEST(SeenPlan, GlassBehindAWallIsNotSeen) {
+  World world = PlainRoom(10.0, 4.0);
+  world.walls[kEast].laser = LaserReturn::kGlass;
+  AddPlainWall(world, {5.0, 0.0}, {5.0, 4.0});
+  EXPECT_FALSE(Has(PlanOf(world), world.walls[kEast]));
+}
+
 TEST(SeenPlan, WhatIsTooNearIsNotSeen) {
   LaserSimulatorOptions laser = LaserAtBase();
   laser.range_min = 2.5;
