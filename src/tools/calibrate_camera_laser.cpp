@@ -1,5 +1,6 @@
 // Finds the camera's place on the robot, and its delay, from an ordinary drive.
 
+#include "picture_file.h"
 #include "progress_line.h"
 #include "run_tool.h"
 #include "scan_image_slam/core/calibration/calibrated_camera.h"
@@ -19,7 +20,6 @@
 #include <sstream>
 
 #include <CLI/CLI.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 namespace scan_image_slam {
 namespace {
@@ -166,15 +166,6 @@ void WriteYaml(const std::string& path, const std::string& report, SlamOptions c
   for (std::string line; std::getline(lines, line);) file << "#   " << line << "\n";
   file << WriteConfig(changed);
   if (!file.flush()) throw std::runtime_error("can't write " + path);
-}
-
-void WritePicture(const std::string& path, const cv::Mat& picture) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path, picture);
-  } catch (const cv::Exception&) {  // an unknown ending
-  }
-  if (!written) throw std::runtime_error("can't write " + path);
 }
 
 void Run(const Arguments& arguments, const SlamOptions& options) {

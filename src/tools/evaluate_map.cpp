@@ -1,5 +1,6 @@
 // Judges a map by the plan of the simulated world that it was made in.
 
+#include "picture_file.h"
 #include "run_tool.h"
 #include "scan_image_slam/core/evaluation/map_quality.h"
 #include "scan_image_slam/core/evaluation/map_quality_picture.h"
@@ -16,7 +17,6 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 namespace scan_image_slam {
 namespace {
@@ -53,15 +53,6 @@ void ParsePose(Arguments& a) {
   if (a.pose.empty()) return;
   a.world_from_map = {a.pose[0], a.pose[1], a.pose[2] * M_PI / 180.0};
   if (!IsFinite(*a.world_from_map)) throw std::invalid_argument("--pose must be finite");
-}
-
-void WritePicture(const std::string& path, const cv::Mat& picture) {
-  bool written = false;
-  try {
-    written = cv::imwrite(path, picture);
-  } catch (const cv::Exception&) {  // an ending that OpenCV does not know
-  }
-  if (!written) throw std::runtime_error("can't write the picture " + path);
 }
 
 void Evaluate(const Arguments& arguments) {

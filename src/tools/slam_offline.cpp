@@ -1,7 +1,9 @@
 // Runs the three stages on a bag, in process and as fast as the machine allows.
 
+#include "picture_file.h"
 #include "progress_line.h"
 #include "run_tool.h"
+#include "scan_image_slam/core/evaluation/statistics.h"
 #include "scan_image_slam/core/evaluation/trajectory.h"
 #include "scan_image_slam/core/fusion/fusion_picture.h"
 #include "scan_image_slam/core/mapping/map_file.h"
@@ -25,7 +27,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sys/resource.h>
 
 namespace scan_image_slam {
@@ -73,11 +74,10 @@ class StageTimes {
  private:
   static nlohmann::json Summary(std::vector<double> times) {
     if (times.empty()) times.push_back(0.0);
-    std::sort(times.begin(), times.end());
-    return {{"min_ms", times.front()},
-            {"median_ms", times[times.size() / 2]},
-            {"p99_ms", times[times.size() * 99 / 100]},
-            {"max_ms", times.back()}};
+    return {{"min_ms", *std::min_element(times.begin(), times.end())},
+            {"median_ms", Percentile(times, 50.0)},
+            {"p99_ms", Percentile(times, 99.0)},
+            {"max_ms", Percentile(times, 100.0)}};
   }
 
   std::array<double, 4> current_{};
@@ -118,10 +118,6 @@ struct Run {
     if (result.match.status == MatchStatus::kOnWindowEdge) ++window_edge_hits;
   }
 };
-
-void WritePicture(const std::string& path, const cv::Mat& picture) {
-  if (!cv::imwrite(path, picture)) throw std::runtime_error("can't write " + path);
-}
 
 /// Pictures of every nth image that was fused: FOLDER/fusion_000001.png and so on, by its number.
 class FusionPictures {

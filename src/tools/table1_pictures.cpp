@@ -1,13 +1,12 @@
 #include "table1_pictures.h"
 
+#include "picture_file.h"
 #include "scan_image_slam/core/mapping/map_picture.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace scan_image_slam {
@@ -86,7 +85,7 @@ void WriteFigure6(const std::string& path, const Scenario& scenario, const Table
   } else {
     cv::hconcat(panels, picture);
   }
-  if (!cv::imwrite(path, picture)) throw std::runtime_error("can't write " + path);
+  WritePicture(path, picture);
 }
 
 }  // namespace scan_image_slam

@@ -19,7 +19,7 @@ Eigen::Matrix3d WithNoise(const Eigen::Matrix3d& information, const Eigen::Matri
 
 /// How far a pose is from the expected one, in standard deviations.
 double Deviation(const Pose2& expected_from_found, const Eigen::Matrix3d& covariance) {
-  const Eigen::Vector3d d(expected_from_found.x, expected_from_found.y, expected_from_found.theta);
+  const Eigen::Vector3d d = expected_from_found.coordinates();
   return std::sqrt(d.dot(covariance.inverse() * d));
 }
 
@@ -47,10 +47,10 @@ bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
   if (!options_.enabled) return false;
   const std::vector<std::pair<int, int>> candidates = Candidates(id);
   if (candidates.empty()) return false;
-  std::vector<GraphConstraint> closures;
   std::vector<int> near_ids;
   near_ids.reserve(candidates.size());
   for (const auto& [near_id, submap_id] : candidates) near_ids.push_back(near_id);
+  std::vector<GraphConstraint> closures;
   const GraphWays ways(links_, id, near_ids);
   for (const auto& [near_id, submap_id] : candidates) {
     if (auto closure = Close(id, submap_id, near_id, ways)) closures.push_back(*closure);
@@ -233,8 +233,8 @@ bool LoopCloser::TakeBack() {
     if (!c.closes_loop() || !Contradicted(c, options_.max_deviation)) kept.push_back(c);
   }
   if (kept.size() == constraints_.size()) return false;
+  links_.assign(keyframes_.size(), {});
   constraints_.clear();
-  for (auto& links : links_) links.clear();
   for (const GraphConstraint& constraint : kept) Join(constraint);
   return true;
 }

@@ -19,8 +19,7 @@ Eigen::Matrix3d SquareRoot(const Eigen::Matrix3d& information) {
 /// What is left between the measured and the present pose of `to`, in the frame of the measured
 /// one.
 Eigen::Vector3d Difference(const Pose2& measured, const Pose2& from, const Pose2& to) {
-  const Pose2 difference = measured.Inverse() * (from.Inverse() * to);
-  return {difference.x, difference.y, difference.theta};
+  return (measured.Inverse() * (from.Inverse() * to)).coordinates();
 }
 
 /// Residual of a constraint by its two nodes (x, y, theta), with analytic derivatives.
@@ -77,7 +76,7 @@ std::vector<Pose2> OptimizeGraph(std::vector<Pose2> nodes,
   first_free = std::max(1, first_free);
   std::vector<Eigen::Vector3d> values;
   values.reserve(nodes.size());
-  for (const Pose2& node : nodes) values.emplace_back(node.x, node.y, node.theta);
+  for (const Pose2& node : nodes) values.push_back(node.coordinates());
 
   ceres::Problem problem;
   std::vector<bool> used(nodes.size(), false);

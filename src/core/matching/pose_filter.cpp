@@ -86,7 +86,7 @@ void PoseFilter::AddScan(const Pose2& map_from_base, const Eigen::Matrix3d& info
     if (amount < kLeastInformation) continue;
     const Eigen::Vector3d direction = eigen.eigenvectors().col(i);
     const Pose2 off = map_from_base.Inverse() * map_from_base_;
-    const double here = direction.dot(Eigen::Vector3d(off.x, off.y, off.theta));
+    const double here = direction.dot(off.coordinates());
     const double best = -direction.dot(gradient) / amount;
     Eigen::VectorXd jacobian = Eigen::VectorXd::Zero(state_.size());
     jacobian.head<3>() = rotation * direction;

@@ -160,7 +160,7 @@ struct PriorTerm {
 PriorTerm PriorAt(const MotionPrior& prior, const Eigen::Matrix3d& prior_information,
                   const Pose2& map_from_base) {
   const Pose2 deviation = prior.map_from_base.Inverse() * map_from_base;
-  const Eigen::Vector3d d(deviation.x, deviation.y, deviation.theta);
+  const Eigen::Vector3d d = deviation.coordinates();
   const double squared = d.dot(prior_information * d);
   const double weight = CauchyWeight(squared, 1.0, prior.kernel);
   const Eigen::Matrix3d weighted = weight * prior_information;

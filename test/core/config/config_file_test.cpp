@@ -1,13 +1,11 @@
 #include "scan_image_slam/core/config/config_file.h"
 
 #include "scan_image_slam/core/config/slam_parameters.h"
+#include "support_folder.h"
 
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace scan_image_slam {
 namespace {
@@ -67,16 +65,7 @@ TEST(ShippedConfig, PaperIsThePapers) {
 /// Configuration files of the tests' own.
 class ConfigFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("config_file_test_" + std::string(info->name()) + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-    path_ = (folder_ / "my.yaml").string();
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  void Write(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
+  void Write(const std::string& text) const { folder_.Write("my.yaml", text); }
 
   /// What loading this text says, without the folder's name.
   std::string ErrorOf(const std::string& text) {
@@ -84,16 +73,13 @@ class ConfigFile : public ::testing::Test {
     try {
       Load(path_, &options_);
     } catch (const ParameterError& error) {
-      const std::string message = error.what();
-      const std::size_t at = message.find(folder_.string() + "/");
-      EXPECT_NE(at, std::string::npos) << message;
-      return message.substr(0, at) + message.substr(at + folder_.string().size() + 1);
+      return folder_.WithoutPath(error.what());
     }
     return "no error";
   }
 
-  std::filesystem::path folder_;
-  std::string path_;
+  const TemporaryFolder folder_;
+  const std::string path_ = folder_.File("my.yaml");
   SlamOptions options_;
 };
 
@@ -187,7 +173,7 @@ TEST_F(ConfigFile, AMissingFileIsNamed) {
 }
 
 TEST_F(ConfigFile, AFolderIsNoFile) {
-  EXPECT_THROW(ReadConfigFile(folder_.string()), ParameterError);
+  EXPECT_THROW(ReadConfigFile(folder_.path()), ParameterError);
 }
 
 TEST_F(ConfigFile, WhatIsWrittenIsRead) {

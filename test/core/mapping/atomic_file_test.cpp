@@ -1,7 +1,8 @@
 #include "scan_image_slam/core/mapping/atomic_file.h"
 
+#include "support_folder.h"
+
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 
@@ -15,12 +16,6 @@ namespace fs = std::filesystem;
 
 class AtomicFile : public ::testing::Test {
  protected:
-  AtomicFile() {
-    char name[] = "/tmp/atomic_file_test.XXXXXX";
-    folder_ = mkdtemp(name);
-  }
-  ~AtomicFile() override { fs::remove_all(folder_); }
-
   std::string Error(const std::string& path, const std::string& content) const {
     try {
       ReplaceFile(path, content);
@@ -31,10 +26,10 @@ class AtomicFile : public ::testing::Test {
   }
   int Files() const {
     return static_cast<int>(
-        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+        std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
   }
 
-  std::string folder_;
+  const TemporaryFolder folder_;
 };
 
 /// As if the disk were full: no file may grow beyond `bytes`.
@@ -58,7 +53,7 @@ class SmallFilesOnly {
 };
 
 TEST_F(AtomicFile, ReplacesTheContentAndLeavesNothingBeside) {
-  const std::string path = folder_ + "/state";
+  const std::string path = folder_.File("state");
   ReplaceFile(path, std::string("old\0\n", 5));
   EXPECT_EQ(ReadWholeFile(path), std::string("old\0\n", 5));
   ReplaceFile(path, "new");
@@ -67,12 +62,12 @@ TEST_F(AtomicFile, ReplacesTheContentAndLeavesNothingBeside) {
 }
 
 TEST_F(AtomicFile, MakesTheFolder) {
-  ReplaceFile(folder_ + "/a/b/state", "x");
-  EXPECT_EQ(ReadWholeFile(folder_ + "/a/b/state"), "x");
+  ReplaceFile(folder_.File("a/b/state"), "x");
+  EXPECT_EQ(ReadWholeFile(folder_.File("a/b/state")), "x");
 }
 
 TEST_F(AtomicFile, ThatCannotBeWrittenWholeLeavesTheOldOne) {
-  const std::string path = folder_ + "/state";
+  const std::string path = folder_.File("state");
   ReplaceFile(path, "old");
   std::string error;
   {
@@ -85,8 +80,8 @@ TEST_F(AtomicFile, ThatCannotBeWrittenWholeLeavesTheOldOne) {
 }
 
 TEST_F(AtomicFile, OfSeveralNoneIsReplacedIfOneCannotBeWritten) {
-  const std::string small = folder_ + "/small";
-  const std::string large = folder_ + "/large";
+  const std::string small = folder_.File("small");
+  const std::string large = folder_.File("large");
   ReplaceFiles({{small, "old"}, {large, "old, too"}});
   {
     const SmallFilesOnly full(1000);
@@ -106,15 +101,15 @@ TEST_F(AtomicFile, OfSeveralNoneIsReplacedIfOneCannotBeWritten) {
 }
 
 TEST_F(AtomicFile, NamesWhatIsInTheWay) {
-  fs::create_directories(folder_ + "/state");
-  EXPECT_NE(Error(folder_ + "/state", "x").find(folder_ + "/state"), std::string::npos);
+  fs::create_directories(folder_.File("state"));
+  EXPECT_NE(Error(folder_.File("state"), "x").find(folder_.File("state")), std::string::npos);
   EXPECT_EQ(Files(), 1);
-  ReplaceFile(folder_ + "/file", "x");
-  EXPECT_NE(Error(folder_ + "/file/state", "x").find(folder_ + "/file"), std::string::npos);
+  ReplaceFile(folder_.File("file"), "x");
+  EXPECT_NE(Error(folder_.File("file/state"), "x").find(folder_.File("file")), std::string::npos);
 }
 
 TEST_F(AtomicFile, ReadingNamesTheFile) {
-  for (const std::string& path : {folder_ + "/none", folder_}) {
+  for (const std::string& path : {folder_.File("none"), folder_.path()}) {
     try {
       ReadWholeFile(path);
       ADD_FAILURE();

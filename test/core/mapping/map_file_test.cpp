@@ -1,40 +1,22 @@
 #include "scan_image_slam/core/mapping/map_file.h"
 
 #include "grid_fixtures.h"
+#include "scan_image_slam/core/mapping/atomic_file.h"
+#include "support_folder.h"
 #include "support_rooms.h"
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
 namespace scan_image_slam {
 namespace {
 
-/// A folder that is removed again.
 class MapFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("map_file_test_" + std::string(info->name()) + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string Stem(const std::string& name) const { return (folder_ / name).string(); }
-
-  static std::string Read(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-
   std::string ErrorOf(const std::string& stem) const {
     try {
       WriteMap(MapImage(), stem);
@@ -44,7 +26,7 @@ class MapFile : public ::testing::Test {
     return "no error";
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
 };
 
 MapImage SixCells() {
@@ -60,15 +42,15 @@ MapImage SixCells() {
 }
 
 TEST_F(MapFile, PictureStartsAtTheTop) {
-  WriteMap(SixCells(), Stem("room"));
+  WriteMap(SixCells(), folder_.File("room"));
   const std::string pixels = {'\xFE', '\xCD', '\x00',   // free, unknown, occupied
                               '\xCD', '\xFE', '\x00'};  // unknown, free, occupied
-  EXPECT_EQ(Read(Stem("room.pgm")), "P5\n3 2\n255\n" + pixels);
+  EXPECT_EQ(ReadWholeFile(folder_.File("room.pgm")), "P5\n3 2\n255\n" + pixels);
 }
 
 TEST_F(MapFile, YamlIsAsMapSaverWritesIt) {
-  EXPECT_EQ(WriteMap(SixCells(), Stem("room")), Stem("room.yaml"));
-  EXPECT_EQ(Read(Stem("room.yaml")),
+  EXPECT_EQ(WriteMap(SixCells(), folder_.File("room")), folder_.File("room.yaml"));
+  EXPECT_EQ(ReadWholeFile(folder_.File("room.yaml")),
             "image: 'room.pgm'\n"
             "resolution: 0.05\n"
             "origin: [-1.25, 0.5, 0.0]\n"
@@ -82,8 +64,8 @@ TEST_F(MapFile, TellsOccupancyFromTheFirstPercentOn) {
   map.width = 102;
   map.height = 1;
   for (int i = -1; i <= 100; ++i) map.occupancy.push_back(static_cast<std::int8_t>(i));
-  WriteMap(map, Stem("steps"));
-  const std::string file = Read(Stem("steps.pgm"));
+  WriteMap(map, folder_.File("steps"));
+  const std::string file = ReadWholeFile(folder_.File("steps.pgm"));
   const std::string pixels = file.substr(file.size() - 102);
   for (int i = -1; i <= 100; ++i) {
     const int expected = i < 0 ? 205 : (i >= 65 ? 0 : (i <= 25 ? 254 : 205));
@@ -92,32 +74,32 @@ TEST_F(MapFile, TellsOccupancyFromTheFirstPercentOn) {
 }
 
 TEST_F(MapFile, MakesTheFolder) {
-  EXPECT_EQ(WriteMap(SixCells(), Stem("missing/room")), Stem("missing/room.yaml"));
-  EXPECT_TRUE(std::filesystem::exists(Stem("missing/room.pgm")));
+  EXPECT_EQ(WriteMap(SixCells(), folder_.File("missing/room")), folder_.File("missing/room.yaml"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.File("missing/room.pgm")));
 }
 
 TEST_F(MapFile, NamesTheFileInAFolderThatCannotBe) {
-  std::ofstream(Stem("file")) << "no folder";
-  const std::string error = ErrorOf(Stem("file/room"));
-  EXPECT_NE(error.find(Stem("file")), std::string::npos) << error;
+  folder_.Write("file", "no folder");
+  const std::string error = ErrorOf(folder_.File("file/room"));
+  EXPECT_NE(error.find(folder_.File("file")), std::string::npos) << error;
   EXPECT_NE(error.find("Not a directory"), std::string::npos) << error;
 }
 
 TEST_F(MapFile, NamesTheFileThatIsAFolder) {
-  std::filesystem::create_directories(Stem("room.yaml"));
-  const std::string error = ErrorOf(Stem("room"));
-  EXPECT_NE(error.find(Stem("room.yaml")), std::string::npos) << error;
+  std::filesystem::create_directories(folder_.File("room.yaml"));
+  const std::string error = ErrorOf(folder_.File("room"));
+  EXPECT_NE(error.find(folder_.File("room.yaml")), std::string::npos) << error;
   EXPECT_NE(error.find("Is a directory"), std::string::npos) << error;
 }
 
 TEST_F(MapFile, AnEmptyMapIsOneUnknownCell) {
-  WriteMap(MapImage(), Stem("empty"));
-  EXPECT_EQ(Read(Stem("empty.pgm")), "P5\n1 1\n255\n\xCD");
+  WriteMap(MapImage(), folder_.File("empty"));
+  EXPECT_EQ(ReadWholeFile(folder_.File("empty.pgm")), "P5\n1 1\n255\n\xCD");
 }
 
 TEST_F(MapFile, NamesAnyFile) {
   for (const std::string name : {"floor #2", "hall: east", "it's", "- {[&*", "%TAG"}) {
-    const YAML::Node yaml = YAML::LoadFile(WriteMap(SixCells(), Stem(name)));
+    const YAML::Node yaml = YAML::LoadFile(WriteMap(SixCells(), folder_.File(name)));
     EXPECT_EQ(yaml["image"].as<std::string>(), name + ".pgm");
     EXPECT_EQ(yaml["resolution"].as<double>(), 0.05);
   }
@@ -171,8 +153,8 @@ OccupancyGrid RandomGrid(double resolution) {
 TEST_F(MapFile, ReadBackEveryCellLiesWhereItWas) {
   for (const double resolution : {0.05, 0.0123456789, 1.0 / 3.0}) {
     const OccupancyGrid grid = RandomGrid(resolution);
-    const YAML::Node yaml = YAML::LoadFile(WriteMap(ToMapImage(grid), Stem("map")));
-    const Picture picture = ReadPgm(Read(Stem(yaml["image"].as<std::string>())));
+    const YAML::Node yaml = YAML::LoadFile(WriteMap(ToMapImage(grid), folder_.File("map")));
+    const Picture picture = ReadPgm(ReadWholeFile(folder_.File(yaml["image"].as<std::string>())));
     const double cell = yaml["resolution"].as<double>();
     EXPECT_NEAR(cell, resolution, 1e-9);
     int known = 0;

@@ -1,34 +1,21 @@
 #include "scan_image_slam/core/mapping/map_reader.h"
 
-#include <filesystem>
-#include <fstream>
+#include "support_folder.h"
+
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
-#include <unistd.h>
 
 namespace scan_image_slam {
 namespace {
 
-/// A folder that is removed again.
 class MapReader : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("map_reader_test_" + std::string(info->name()) + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string Path(const std::string& name) const { return (folder_ / name).string(); }
-
   /// Three pixels in a row, and the yaml with some lines of its own.
   std::string Write(const std::string& lines) const {
-    cv::imwrite(Path("room.png"), cv::Mat(std::vector<std::uint8_t>{0, 205, 254}).t());
-    std::ofstream(Path("room.yaml")) << lines;
-    return Path("room.yaml");
+    cv::imwrite(folder_.File("room.png"), cv::Mat(std::vector<std::uint8_t>{0, 205, 254}).t());
+    return folder_.Write("room.yaml", lines);
   }
 
   std::string ErrorOf(const std::string& path) const {
@@ -40,7 +27,7 @@ class MapReader : public ::testing::Test {
     return "no error";
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
 };
 
 using Occupancy = std::vector<std::int8_t>;
@@ -62,7 +49,7 @@ TEST_F(MapReader, ReadsWhatWriteMapWrote) {
   map.origin_x = -1.25;
   map.origin_y = 0.5;
   map.occupancy = {-1, 0, 100, 25, 64, 65};
-  const MapImage read = ReadMap(WriteMap(map, Path("it's a #room")));
+  const MapImage read = ReadMap(WriteMap(map, folder_.File("it's a #room")));
   EXPECT_EQ(read.width, 3);
   EXPECT_EQ(read.height, 2);
   EXPECT_EQ(read.resolution, 0.05);
@@ -85,7 +72,7 @@ TEST_F(MapReader, WhiteIsOccupiedIfNegated) {
 }
 
 TEST_F(MapReader, FindsThePictureByItsFullPath) {
-  EXPECT_EQ(ReadMap(Write(Replaced("room.png", Path("room.png")))).width, 3);
+  EXPECT_EQ(ReadMap(Write(Replaced("room.png", folder_.File("room.png")))).width, 3);
 }
 
 TEST_F(MapReader, NamesTheKeyThatIsMissingOrWrong) {
@@ -102,9 +89,9 @@ TEST_F(MapReader, NamesTheKeyThatIsMissingOrWrong) {
 }
 
 TEST_F(MapReader, NamesTheFileThatIsNotThere) {
-  EXPECT_NE(ErrorOf(Path("none.yaml")).find(Path("none.yaml")), std::string::npos);
+  EXPECT_NE(ErrorOf(folder_.File("none.yaml")).find(folder_.File("none.yaml")), std::string::npos);
   const std::string error = ErrorOf(Write(Replaced("room.png", "none.png")));
-  EXPECT_NE(error.find(Path("none.png")), std::string::npos) << error;
+  EXPECT_NE(error.find(folder_.File("none.png")), std::string::npos) << error;
 }
 
 }  // namespace

@@ -1,61 +1,41 @@
 #include "scan_image_slam/core/simulation/scenario.h"
 
 #include "scan_image_slam/core/config/yaml_section.h"
+#include "support_folder.h"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace scan_image_slam {
 namespace {
 
-/// A folder of world files that is removed again.
 class ScenarioFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("scenario_test_" + std::string(info->name()) + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string Write(const std::string& name, const std::string& text) const {
-    const std::string path = (folder_ / name).string();
-    std::ofstream(path) << text;
-    return path;
-  }
-
   /// The error of loading this text, without the folder's name.
   std::string ErrorOf(const std::string& text) const {
-    const std::string path = Write("world.yaml", text);
+    const std::string path = folder_.Write("world.yaml", text);
     try {
       LoadScenario(path);
     } catch (const YamlError& error) {
-      const std::string message = error.what();
-      const std::string folder = folder_.string() + "/";
-      EXPECT_EQ(message.substr(0, folder.size()), folder);
-      return message.substr(std::min(message.size(), folder.size()));
+      return folder_.WithoutPath(error.what());
     }
     return "no error";
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
 };
 
 const char kPath[] = "paths: [{start: [0, 0], way_points: [[5, 0]]}]\n";
 
 TEST_F(ScenarioFiles, OverridesSensorOptionsByName) {
-  const Scenario scenario = LoadScenario(
-      Write("world.yaml", std::string(kPath) +
-                              "sensors:\n"
-                              "  laser: {rate: 10, beams: 682, angle_increment_deg: 0.3515625,\n"
-                              "          steps_per_turn: 1024, range_max: 5.6, no_return: zero}\n"
-                              "  camera: {yaw_deg: 5, encoding: mono8}\n"
-                              "  base: {slip_rate: 0}\n"));
+  const Scenario scenario = LoadScenario(folder_.Write(
+      "world.yaml", std::string(kPath) +
+                        "sensors:\n"
+                        "  laser: {rate: 10, beams: 682, angle_increment_deg: 0.3515625,\n"
+                        "          steps_per_turn: 1024, range_max: 5.6, no_return: zero}\n"
+                        "  camera: {yaw_deg: 5, encoding: mono8}\n"
+                        "  base: {slip_rate: 0}\n"));
   EXPECT_DOUBLE_EQ(scenario.laser.rate, 10.0);
   EXPECT_EQ(scenario.laser.beams, 682);
   EXPECT_EQ(scenario.laser.no_return, NoReturn::kZero);
@@ -66,15 +46,15 @@ TEST_F(ScenarioFiles, OverridesSensorOptionsByName) {
 }
 
 TEST_F(ScenarioFiles, IncludesAddAndOverride) {
-  Write("base.yaml", std::string(kPath) +
-                         "walls:\n  - {id: w, from: [0, 1], to: [9, 1]}\n"
-                         "sensors: {laser: {rate: 10}, camera: {rate: 15}}\n");
+  folder_.Write("base.yaml", std::string(kPath) +
+                                 "walls:\n  - {id: w, from: [0, 1], to: [9, 1]}\n"
+                                 "sensors: {laser: {rate: 10}, camera: {rate: 15}}\n");
   const Scenario scenario =
-      LoadScenario(Write("world.yaml",
-                         "include: base.yaml\n"
-                         "decorations:\n  - {kind: door, wall: w, at: 3}\n"
-                         "sensors: {laser: {rate: 20}}\n"
-                         "paths: [{name: mine, start: [1, 0], way_points: [[2, 0]]}]\n"));
+      LoadScenario(folder_.Write("world.yaml",
+                                 "include: base.yaml\n"
+                                 "decorations:\n  - {kind: door, wall: w, at: 3}\n"
+                                 "sensors: {laser: {rate: 20}}\n"
+                                 "paths: [{name: mine, start: [1, 0], way_points: [[2, 0]]}]\n"));
   EXPECT_EQ(scenario.world.walls.size(), 1U);
   EXPECT_EQ(scenario.world.faces[0].decorations.size(), 1U);
   EXPECT_DOUBLE_EQ(scenario.laser.rate, 20.0);
@@ -86,11 +66,11 @@ TEST_F(ScenarioFiles, IncludesAddAndOverride) {
 
 TEST_F(ScenarioFiles, ReadsFaults) {
   const Scenario scenario = LoadScenario(
-      Write("world.yaml", std::string(kPath) +
-                              "faults:\n"
-                              "  - {kind: camera_delayed, from: 1, to: 2, delay: 0.3}\n"
-                              "  - {kind: encoders_slip, from: 3, to: 4, angle_deg: 90}\n"
-                              "  - {kind: encoders_reset, from: 5}\n"));
+      folder_.Write("world.yaml", std::string(kPath) +
+                                      "faults:\n"
+                                      "  - {kind: camera_delayed, from: 1, to: 2, delay: 0.3}\n"
+                                      "  - {kind: encoders_slip, from: 3, to: 4, angle_deg: 90}\n"
+                                      "  - {kind: encoders_reset, from: 5}\n"));
   ASSERT_EQ(scenario.faults.size(), 3U);
   EXPECT_EQ(scenario.faults[0].kind, Fault::Kind::kCameraDelayed);
   EXPECT_DOUBLE_EQ(scenario.faults[0].value, 0.3);

@@ -25,6 +25,7 @@ struct Pose2 {
   double theta = 0.0;  ///< [rad]
 
   Eigen::Vector2d translation() const { return {x, y}; }
+  Eigen::Vector3d coordinates() const { return {x, y, theta}; }
   Pose2 Inverse() const;
 };
 
