@@ -121,9 +121,8 @@ void MapperNode::OnMatchedModel(const IcpModelConstPtr& model, const ScanMatchCo
   try {
     const FusedModel scan = FromMessage(*model);
     const MatchedMotion motion = FromMessage(*match);
-    const std::size_t drawn = mapper_.drawn().size();
     if (const auto keyframe = mapper_.AddModel(scan, motion)) back_end_.Add(keyframe);
-    changed_ = changed_ || mapper_.drawn().size() > drawn;
+    changed_ = changed_ || mapper_.growing();
     if (auto sighting = mapper_.Look(scan, motion)) back_end_.Look(std::move(*sighting));
   } catch (const std::invalid_argument& error) {
     watch_.Refuse(paired_model_subscriber_.getTopic(), error.what());

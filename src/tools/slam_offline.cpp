@@ -272,6 +272,7 @@ int Main(int argc, char** argv) {
       [&] {
         cv::setNumThreads(arguments.threads);
         options = arguments.input.ReadOptions();
+        options.mapper.max_trajectory_poses = std::numeric_limits<int>::max();
         arguments.input.topics.use_images = !arguments.no_images && options.fusion_node.use_camera;
       },
       [&] { RunOffline(arguments, options); });

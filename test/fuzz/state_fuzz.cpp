@@ -19,7 +19,7 @@ void Append(Number number, std::string* bytes) {
 
 std::string WithHeader(const std::uint8_t* data, std::size_t size) {
   std::string bytes = "SISTATE\n";
-  Append(std::uint32_t{1}, &bytes);
+  Append(std::uint32_t{2}, &bytes);
   Append(static_cast<std::uint32_t>(crc32(0, data, static_cast<uInt>(size))), &bytes);
   Append(static_cast<std::uint64_t>(size), &bytes);
   return bytes.append(reinterpret_cast<const char*>(data), size);

@@ -326,11 +326,13 @@ ParameterSet MapperParameters(MapperOptions* o, LoopCloserOptions* loop, MapperN
           "turned since the last scan that was drawn");
   set.Add("map_update_time_thresh", &o->map_update_time_thresh, "s", kNotNegative,
           "passed since the last scan that was drawn");
+  set.Add("max_scans_per_place", &o->max_scans_per_place, "-", {1, 1000},
+          "kept in the map of those taken within half a metre and 45 degrees: the latest");
   AddLoopClosing(o, loop, &set);
   set.AllowLive({"transform_publish_period", "tf_delay", "map_update_interval",
                  "update_factor_occupied", "update_factor_free", "map_update_distance_thresh",
-                 "map_update_angle_thresh", "map_update_time_thresh", "loop/min_way",
-                 "loop/max_distance", "loop/min_agreement", "loop/min_overlap",
+                 "map_update_angle_thresh", "map_update_time_thresh", "max_scans_per_place",
+                 "loop/min_way", "loop/max_distance", "loop/min_agreement", "loop/min_overlap",
                  "loop/max_rival_score"});
   return set;
 }

@@ -45,6 +45,7 @@ bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
     Join({id - 1, id, added.previous_from_base, added.covariance.inverse(), !added.joined});
   }
   if (!options_.enabled) return false;
+  ReleaseKnown();
   const std::vector<std::pair<int, int>> candidates = Candidates(id);
   if (candidates.empty()) return false;
   std::vector<int> near_ids;
@@ -66,6 +67,7 @@ void LoopCloser::Load(GraphMemory memory) {
   for (auto& keyframe : memory.keyframes) Enter(std::move(keyframe));
   poses_ = std::move(memory.poses);
   for (const GraphConstraint& constraint : memory.constraints) Join(constraint);
+  anchors_ = std::move(memory.anchors);
   closures_since_optimization_ = memory.closures_since_optimization;
 }
 
@@ -85,6 +87,15 @@ void LoopCloser::Join(const GraphConstraint& constraint) {
   links_[from].push_back({to, index, way});
   links_[to].push_back({from, index, way});
   constraints_.push_back(constraint);
+  closures_ += constraint.closes_loop() ? 1 : 0;
+}
+
+/// Forgets all other constraints.
+void LoopCloser::JoinOnly(const std::vector<GraphConstraint>& constraints) {
+  links_.assign(keyframes_.size(), {});
+  constraints_.clear();
+  closures_ = 0;
+  for (const GraphConstraint& constraint : constraints) Join(constraint);
 }
 
 void LoopCloser::ExtendSubmaps() {
@@ -135,6 +146,7 @@ std::vector<std::pair<int, int>> LoopCloser::Candidates(int id) const {
     if (keyframe.way - keyframes_[range.end - 1]->way < options_.min_loop_way) break;
     Candidate best{std::numeric_limits<double>::infinity(), 0, static_cast<int>(s)};
     for (int i = range.begin; i < range.end; ++i) {
+      if (keyframes_[i]->points.empty()) continue;
       const double distance = (poses_[i].translation() - poses_[id].translation()).norm();
       if (distance < best.distance) {
         best.distance = distance;
@@ -202,6 +214,7 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
   closure.information =
       WithNoise(match->information, Eigen::Vector3d(s * s, s * s, a * a).asDiagonal());
   closure.robust = true;
+  closure.overlap = match->overlap;
   return closure;
 }
 
@@ -220,6 +233,8 @@ void LoopCloser::Optimize(const std::vector<GraphConstraint>& closures) {
   poses_ =
       OptimizeGraph(poses_, constraints_, all ? 1 : std::max(1, count - kRecent), options_.graph);
   if (all && TakeBack()) poses_ = OptimizeGraph(poses_, constraints_, 1, options_.graph);
+  MoveAnchored();
+  if (all) LeaveOutKnown();
 }
 
 bool LoopCloser::Contradicted(const GraphConstraint& constraint, double deviation) const {
@@ -233,10 +248,43 @@ bool LoopCloser::TakeBack() {
     if (!c.closes_loop() || !Contradicted(c, options_.max_deviation)) kept.push_back(c);
   }
   if (kept.size() == constraints_.size()) return false;
-  links_.assign(keyframes_.size(), {});
-  constraints_.clear();
-  for (const GraphConstraint& constraint : kept) Join(constraint);
+  JoinOnly(kept);
   return true;
+}
+
+/// Lets go what keyframes saw of known places, as soon as no query asks for it.
+void LoopCloser::ReleaseKnown() {
+  const KnownPlaces places(keyframes_, constraints_, links_, anchors_, options_.known_places);
+  const double way = keyframes_.back()->way - options_.query_way;
+  for (; keyframes_[next_to_release_]->way < way; ++next_to_release_) {
+    std::shared_ptr<const Keyframe>& keyframe = keyframes_[next_to_release_];
+    if (keyframe->points.empty() || !places.AnchorOf(next_to_release_)) continue;
+    auto released = std::make_shared<Keyframe>(*keyframe);
+    released->points = std::vector<KeptPoint>();
+    released->edges = std::vector<ModelEdge>();
+    keyframe = std::move(released);
+  }
+}
+
+/// Leaves out of the graph what says nothing new: it would grow for as long as the robot drives.
+void LoopCloser::LeaveOutKnown() {
+  const KnownPlaces places(keyframes_, constraints_, links_, anchors_, options_.known_places);
+  const std::size_t before = anchors_.size();
+  for (int id = 1; id < next_to_release_; ++id) {
+    if (anchors_.count(id) > 0 || !places.IsNeedless(id)) continue;
+    const int anchor = *places.AnchorOf(id);
+    anchors_[id] = {anchor, poses_[anchor].Inverse() * poses_[id]};
+  }
+  if (anchors_.size() == before) return;
+  std::vector<GraphConstraint> kept;
+  for (const GraphConstraint& c : constraints_) {
+    if (anchors_.count(c.from) == 0 && anchors_.count(c.to) == 0) kept.push_back(c);
+  }
+  JoinOnly(kept);
+}
+
+void LoopCloser::MoveAnchored() {
+  for (const auto& [id, pose] : anchors_) poses_[id] = MapFromBase(pose, poses_);
 }
 
 }  // namespace scan_image_slam

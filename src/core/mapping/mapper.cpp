@@ -55,14 +55,15 @@ void MapperOptions::Validate() const {
   require(map_update_time_thresh, "map_update_time_thresh");
 }
 
-Mapper::Mapper(const MapperOptions& options) : options_(options), grid_(options.grid) {
+Mapper::Mapper(const MapperOptions& options)
+    : options_(options), drawn_(options.grid, options.max_scans_per_place) {
   options_.Validate();
 }
 
 void Mapper::SetOptions(const MapperOptions& options) {
   options.Validate();
   options_ = options;
-  grid_.SetOptions(options.grid);
+  drawn_.SetOptions(options.grid, options.max_scans_per_place);
 }
 
 void Mapper::BeginChain(const MatchedMotion& match) {
@@ -108,8 +109,24 @@ MapPose Mapper::AddMatch(const MatchedMotion& match) {
   has_pose_ = true;
   failed_ = IsReliable(match.status) ? 0 : failed_ + 1;
   if (failed_ > kBriefGap) joined_ = false;
-  if (!lost_) tracked_.push_back({match.stamp, Attach(last_.map_from_base)});
+  if (!lost_) Track(last_);
   return last_;
+}
+
+void Mapper::Track(const MapPose& pose) {
+  constexpr double kLeastSpacing = 0.05;  // of a trajectory that is thinned [m]
+  if (!tracked_.empty()) {
+    const Pose2 tracked = MapFromBase(tracked_.back().pose, keyframe_poses_);
+    const double moved = (pose.map_from_base.translation() - tracked.translation()).norm();
+    if (moved < tracked_spacing_) return;
+  }
+  if (static_cast<int>(tracked_.size()) >= options_.max_trajectory_poses) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < tracked_.size(); i += 2) tracked_[kept++] = tracked_[i];
+    tracked_.resize(kept);
+    tracked_spacing_ = std::max(kLeastSpacing, 2.0 * tracked_spacing_);
+  }
+  tracked_.push_back({pose.stamp, Attach(pose.map_from_base)});
 }
 
 bool Mapper::WorthDrawing(const MatchedMotion& match, const Pose2& map_from_base) const {
@@ -171,20 +188,18 @@ std::shared_ptr<const Keyframe> Mapper::AddModel(const FusedModel& model,
                                                  const MatchedMotion& match) {
   if (!growing()) return nullptr;
   const Pose2 map_from_base = map_from_start_ * match.start_from_base();
-  std::shared_ptr<const GridScan> scan;
+  const bool keep = WorthKeeping(match);
   if (WorthDrawing(match, map_from_base)) {
-    scan = std::make_shared<const GridScan>(
-        MakeGridScan(model, match.sweep_correction, options_.grid));
-    grid_.Add(*scan, map_from_base);  // first, as it throws if the map is as large as it may be
-  }
-  std::shared_ptr<const Keyframe> keyframe;
-  if (WorthKeeping(match)) keyframe = Keep(model, match);
-  if (scan) {
-    drawn_.push_back({scan, Attach(map_from_base), map_from_base});
+    const int next_keyframe = static_cast<int>(keyframe_poses_.size());
+    // First, as it throws if the map is as large as it may be.
+    drawn_.Add({std::make_shared<const GridScan>(
+                    MakeGridScan(model, match.sweep_correction, options_.grid)),
+                keep ? AttachedPose{next_keyframe, Pose2()} : Attach(map_from_base),
+                map_from_base});
     drawn_stamp_ = match.stamp;
     map_from_drawn_ = map_from_base;
   }
-  return keyframe;
+  return keep ? Keep(model, match) : nullptr;
 }
 
 std::optional<Sighting> Mapper::Look(const FusedModel& model, const MatchedMotion& match) {
@@ -214,11 +229,6 @@ AttachedPose Mapper::Attach(const Pose2& map_from_base) const {
           keyframe_poses_.back().Inverse() * map_from_base};
 }
 
-Pose2 Mapper::MapFromBase(const AttachedPose& pose) const {
-  if (pose.keyframe < 0) return pose.keyframe_from_base;
-  return keyframe_poses_[pose.keyframe] * pose.keyframe_from_base;
-}
-
 void Mapper::Correct(const std::vector<Pose2>& keyframe_poses) {
   if (keyframe_poses.empty() || keyframe_poses.size() > keyframe_poses_.size()) return;
   const Pose2 moved = keyframe_poses.back() * keyframe_poses_[keyframe_poses.size() - 1].Inverse();
@@ -230,7 +240,7 @@ void Mapper::Correct(const std::vector<Pose2>& keyframe_poses) {
     MoveRobot(moved);
     map_from_drawn_ = moved * map_from_drawn_;
   }
-  to_redraw_ = drawn_.size();
+  drawn_.BeginRedraw();
 }
 
 void Mapper::MoveRobot(const Pose2& new_from_old) {
@@ -239,32 +249,13 @@ void Mapper::MoveRobot(const Pose2& new_from_old) {
   if (last_.map_from_odom) last_.map_from_odom = new_from_old * *last_.map_from_odom;
 }
 
-bool Mapper::Redraw(int max_scans) {
-  constexpr double kCells = 0.2;
-  constexpr double kAngle = 0.002;  // [rad]
-  while (to_redraw_ > 0 && max_scans > 0) {
-    DrawnScan& drawn = drawn_[--to_redraw_];
-    const Pose2 map_from_base = MapFromBase(drawn.pose);
-    const Pose2 moved = drawn.map_from_base.Inverse() * map_from_base;
-    if (moved.translation().norm() < kCells * grid_.resolution() &&
-        std::abs(moved.theta) < kAngle) {
-      continue;
-    }
-    grid_.Add(*drawn.scan, map_from_base);
-    grid_.Remove(*drawn.scan, drawn.map_from_base);
-    drawn.map_from_base = map_from_base;
-    --max_scans;
-  }
-  return to_redraw_ == 0;
-}
-
 std::vector<MapPose> Mapper::Trajectory() const {
   std::vector<MapPose> poses;
   poses.reserve(tracked_.size());
   for (const TrackedPose& tracked : tracked_) {
     MapPose pose;
     pose.stamp = tracked.stamp;
-    pose.map_from_base = MapFromBase(tracked.pose);
+    pose.map_from_base = MapFromBase(tracked.pose, keyframe_poses_);
     poses.push_back(pose);
   }
   return poses;
@@ -272,7 +263,7 @@ std::vector<MapPose> Mapper::Trajectory() const {
 
 MapState Mapper::State() const {
   MapState state;
-  state.drawn = drawn_;
+  state.drawn = drawn_.scans();
   state.chain = loaded_chain_;
   if (growing() && start_stamp_) state.chain = {*start_stamp_, last_.stamp, map_from_start_};
   return state;
@@ -284,10 +275,9 @@ void Mapper::Load(const MapState& state, MapUse use) {
   }
   *this = Mapper(options_);
   keyframe_poses_ = state.graph.poses;
-  drawn_ = state.drawn;
   loaded_chain_ = state.chain;
-  for (const DrawnScan& drawn : drawn_) grid_.Add(*drawn.scan, drawn.map_from_base);
-  to_redraw_ = drawn_.size();  // what the graph knew better when it was saved
+  drawn_.Load(state.drawn);
+  drawn_.BeginRedraw();  // what the graph knew better when it was saved
   if (!state.graph.keyframes.empty()) way_ = state.graph.keyframes.back()->way;
   localize_ = use == MapUse::kLocalize;
   lost_ = !keyframe_poses_.empty();
@@ -310,6 +300,7 @@ void Mapper::Forget() {
   last_ = MapPose();
   has_pose_ = false;
   tracked_.clear();
+  tracked_spacing_ = 0.0;
 }
 
 void Mapper::Locate(const Location& location) {

@@ -9,7 +9,7 @@ namespace scan_image_slam {
 namespace {
 
 const std::string kMagic = "SISTATE\n";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kCheckSumAt = 12;  // after magic and version [bytes]
 constexpr std::size_t kSizeAt = 16;
 constexpr std::size_t kHeader = 24;
@@ -37,9 +37,10 @@ constexpr std::size_t kPointBytes = 5 * kFloat;
 constexpr std::size_t kEdgeBytes = 9 * kDouble + kFloat;
 constexpr std::size_t kKeyframeBytes =
     2 * kDouble + kFlag + kPoseBytes + kMatrixBytes + 2 * kDouble + 2 * kFloat;
-constexpr std::size_t kConstraintBytes = 2 * kFloat + kPoseBytes + kMatrixBytes + kFlag;
+constexpr std::size_t kConstraintBytes = 2 * kFloat + kPoseBytes + kMatrixBytes + kFlag + kDouble;
 constexpr std::size_t kBeamBytes = 2 * kFloat + kFlag;
-constexpr std::size_t kDrawnBytes = 2 * kDouble + kFloat + 2 * kPoseBytes + kFloat;
+constexpr std::size_t kAttachedBytes = kFloat + kPoseBytes;
+constexpr std::size_t kDrawnBytes = 2 * kDouble + kAttachedBytes + kPoseBytes + kFloat;
 
 void Put(const Pose2& pose, ByteWriter* out) {
   out->Write(pose.x);
@@ -144,6 +145,7 @@ void Put(const GraphConstraint& constraint, ByteWriter* out) {
   Put(constraint.from_from_to, out);
   PutMatrix(constraint.information, out);
   out->Write(static_cast<std::uint8_t>(constraint.robust));
+  out->Write(constraint.overlap);
 }
 
 GraphConstraint GetConstraint(ByteReader* in, int keyframes) {
@@ -153,13 +155,26 @@ GraphConstraint GetConstraint(ByteReader* in, int keyframes) {
   constraint.from_from_to = GetPose(in);
   constraint.information = GetMatrix<Eigen::Matrix3d>(in);
   constraint.robust = GetBool(in);
+  constraint.overlap = in->Read<double>();
   return constraint;
+}
+
+void Put(const AttachedPose& pose, ByteWriter* out) {
+  out->Write(static_cast<std::int32_t>(pose.keyframe));
+  Put(pose.keyframe_from_base, out);
+}
+
+/// Hangs on one of the first `keyframes` keyframes, or on the map.
+AttachedPose GetAttached(ByteReader* in, int keyframes) {
+  AttachedPose pose;
+  pose.keyframe = in->ReadIndex(-1, keyframes - 1);
+  pose.keyframe_from_base = GetPose(in);
+  return pose;
 }
 
 void Put(const DrawnScan& drawn, ByteWriter* out) {
   PutMatrix(drawn.scan->origin, out);
-  out->Write(static_cast<std::int32_t>(drawn.pose.keyframe));
-  Put(drawn.pose.keyframe_from_base, out);
+  Put(drawn.pose, out);
   Put(drawn.map_from_base, out);
   PutCount(drawn.scan->beams.size(), out);
   for (const GridBeam& beam : drawn.scan->beams) {
@@ -172,8 +187,7 @@ DrawnScan GetDrawn(ByteReader* in, int keyframes) {
   DrawnScan drawn;
   auto scan = std::make_shared<GridScan>();
   scan->origin = GetMatrix<Eigen::Vector2d>(in);
-  drawn.pose.keyframe = in->ReadIndex(-1, keyframes - 1);
-  drawn.pose.keyframe_from_base = GetPose(in);
+  drawn.pose = GetAttached(in, keyframes);
   drawn.map_from_base = GetPose(in);
   scan->beams.resize(in->ReadCount(kBeamBytes, "beams"));
   for (GridBeam& beam : scan->beams) {
@@ -224,6 +238,11 @@ std::string EncodeState(const MapState& state) {
   for (const Pose2& pose : state.graph.poses) Put(pose, &out);
   PutCount(state.graph.constraints.size(), &out);
   for (const GraphConstraint& constraint : state.graph.constraints) Put(constraint, &out);
+  PutCount(state.graph.anchors.size(), &out);
+  for (const auto& [id, pose] : state.graph.anchors) {
+    out.Write(static_cast<std::int32_t>(id));
+    Put(pose, &out);
+  }
   out.Write(static_cast<std::int32_t>(state.graph.closures_since_optimization));
   PutCount(state.drawn.size(), &out);
   for (const DrawnScan& drawn : state.drawn) Put(drawn, &out);
@@ -249,6 +268,11 @@ MapState DecodeState(const std::string& bytes) {
   state.graph.constraints.reserve(constraints);
   for (std::size_t i = 0; i < constraints; ++i) {
     state.graph.constraints.push_back(GetConstraint(&in, count));
+  }
+  const std::size_t anchors = in.ReadCount(kFloat + kAttachedBytes, "anchors");
+  for (std::size_t i = 0; i < anchors; ++i) {
+    const int id = in.ReadIndex(0, count - 1);
+    state.graph.anchors[id] = GetAttached(&in, id);
   }
   constexpr int kAny = 1 << 30;
   state.graph.closures_since_optimization = in.ReadIndex(0, kAny);

@@ -2,6 +2,7 @@
 
 #include "loop_fixtures.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -58,6 +59,61 @@ TEST(LoopCloser, GoesOnFromItsMemoryAsIfItHadNotStopped) {
   second.Load(first.memory());
   for (std::size_t i = half; i < drive.keyframes.size(); ++i) second.Add(drive.keyframes[i]);
   EXPECT_EQ(second.closures(), whole.closures());
+  ASSERT_EQ(second.poses().size(), whole.poses().size());
+  EXPECT_EQ(std::memcmp(second.poses().data(), whole.poses().data(),
+                        whole.poses().size() * sizeof(Pose2)),
+            0);
+}
+
+int WithPoints(const LoopCloser& closer) {
+  const GraphMemory memory = closer.memory();
+  return static_cast<int>(std::count_if(memory.keyframes.begin(), memory.keyframes.end(),
+                                        [](const auto& k) { return !k->points.empty(); }));
+}
+
+// A round is 110 keyframes. From the sixth on the graph has all visits that it wants.
+TEST(LoopCloser, AKnownBuildingNeedsNoMoreMemory) {
+  const DriftingDrive drive = Drive(RingOfCorridors(), AroundTheRing(10), {1.002, 0.0002});
+  LoopCloser closer{LoopCloserOptions()};
+  std::vector<int> points;
+  std::vector<std::size_t> constraints;
+  for (std::size_t i = 0; i < drive.keyframes.size(); ++i) {
+    closer.Add(drive.keyframes[i]);
+    if ((i + 1) % 110 != 0) continue;
+    points.push_back(WithPoints(closer));
+    constraints.push_back(closer.constraints().size());
+  }
+  ASSERT_EQ(points.size(), 9U);
+  // The first round is kept, and of later ones what is not recognised and the last few metres.
+  EXPECT_GT(points[1], 100);
+  EXPECT_LT(points.back(), 140);
+  EXPECT_LT(constraints.back(), 1.3 * constraints[5]);
+  // All poses are known, also of what the graph does without, and they are right.
+  const GraphMemory memory = closer.memory();
+  EXPECT_GT(memory.anchors.size(), 300U);
+  for (const auto& [id, pose] : memory.anchors) {
+    const Pose2 apart = MapFromBase(pose, memory.poses).Inverse() * memory.poses[id];
+    EXPECT_LT(apart.coordinates().norm(), 1e-12) << id;
+  }
+  ASSERT_EQ(closer.poses().size(), drive.truth.size());
+  EXPECT_LT(LargestError(closer.poses(), drive.truth), 0.1);
+}
+
+TEST(LoopCloser, GoesOnFromAMemoryThatLacksWhatIsKnown) {
+  const DriftingDrive drive = Drive(RingOfCorridors(), AroundTheRing(8), {1.002, 0.0002});
+  LoopCloser whole{LoopCloserOptions()};
+  LoopCloser second{LoopCloserOptions()};
+  const std::size_t half = 7 * drive.keyframes.size() / 8;
+  for (std::size_t i = 0; i < drive.keyframes.size(); ++i) {
+    if (i == half) {
+      ASSERT_GT(whole.memory().anchors.size(), 100U);
+      second.Load(whole.memory());
+    }
+    whole.Add(drive.keyframes[i]);
+    if (i >= half) second.Add(drive.keyframes[i]);
+  }
+  EXPECT_EQ(second.closures(), whole.closures());
+  EXPECT_EQ(second.memory().anchors.size(), whole.memory().anchors.size());
   ASSERT_EQ(second.poses().size(), whole.poses().size());
   EXPECT_EQ(std::memcmp(second.poses().data(), whole.poses().data(),
                         whole.poses().size() * sizeof(Pose2)),

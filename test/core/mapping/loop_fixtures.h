@@ -82,8 +82,14 @@ inline Room RingOfCorridors() {
          Rectangle(-8.0, -2.6, -7.6, -2.3);
 }
 
-inline std::vector<Eigen::Vector2d> TwiceAroundTheRing() {
-  return {{-4, -4}, {7, -4}, {7, 4}, {-7, 4}, {-7, -4}, {7, -4}, {7, 4}, {-7, 4}, {-7, -4}};
+inline std::vector<Eigen::Vector2d> AroundTheRing(int times) {
+  std::vector<Eigen::Vector2d> corners = {{-4, -4}};
+  for (int i = 0; i < times; ++i) {
+    corners.insert(corners.end(), {{7, -4}, {7, 4}, {-7, 4}, {-7, -4}});
+  }
+  return corners;
 }
+
+inline std::vector<Eigen::Vector2d> TwiceAroundTheRing() { return AroundTheRing(2); }
 
 }  // namespace scan_image_slam

@@ -117,6 +117,27 @@ TEST_F(MapperCorrection, IgnoresPosesOfMoreKeyframesThanThereAre) {
   EXPECT_NEAR(mapper_.Trajectory().back().map_from_base.x, poses_.back().x, 1e-9);
 }
 
+TEST(MapperTrajectory, ALongOneIsThinnedEvenly) {
+  MapperOptions options;
+  options.max_trajectory_poses = 100;
+  Mapper mapper(options);
+  constexpr double kStep = 0.02;
+  constexpr int kSteps = 2000;
+  for (int i = 0; i < kSteps; ++i) mapper.AddMatch(MatchAt(0, i, {kStep * i, 0.0, 0.0}));
+  const std::vector<MapPose> trajectory = mapper.Trajectory();
+  ASSERT_GT(trajectory.size(), 50U);
+  ASSERT_LE(trajectory.size(), 100U);
+  EXPECT_EQ(trajectory.front().stamp, 0);
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    const double spacing = trajectory[i].map_from_base.x - trajectory[i - 1].map_from_base.x;
+    EXPECT_GT(spacing, kStep * kSteps / 200);
+    EXPECT_LT(spacing, kStep * kSteps / 40);
+    EXPECT_NEAR(trajectory[i].map_from_base.x, kStep * static_cast<double>(trajectory[i].stamp),
+                1e-9);
+  }
+  EXPECT_GT(trajectory.back().map_from_base.x, kStep * kSteps * 0.95);
+}
+
 /// The keyframe after so many matches in a row that failed.
 class MapperGap : public MapperCorrection {
  protected:

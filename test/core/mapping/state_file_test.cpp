@@ -50,14 +50,14 @@ TEST(StateFile, HoldsEveryNumberBitForBit) {
 
 TEST(StateFile, AnEmptyMapIsAState) {
   const std::string bytes = EncodeState(MapState());
-  EXPECT_EQ(bytes.size(), kContent + 4 * 4 + 2 * 8 + 3 * 8);  // counts, closures, the chain
+  EXPECT_EQ(bytes.size(), kContent + 5 * 4 + 2 * 8 + 3 * 8);  // counts, closures, the chain
   ExpectSame(DecodeState(bytes), MapState());
 }
 
 TEST(StateFile, BeginsAsItIsDescribed) {
   const std::string bytes = EncodeState(DistinctNumbers().State());
-  EXPECT_EQ(bytes.substr(0, 12), std::string("SISTATE\n\1\0\0\0", 12));
-  EXPECT_EQ(Forged(bytes, 8, 1), bytes) << "the check sum is that of its definition";
+  EXPECT_EQ(bytes.substr(0, 12), std::string("SISTATE\n\2\0\0\0", 12));
+  EXPECT_EQ(Forged(bytes, 8, 2), bytes) << "the check sum is that of its definition";
   EXPECT_EQ(bytes.substr(kContent, 4), std::string("\3\0\0\0", 4)) << "three keyframes";
 }
 
@@ -85,8 +85,8 @@ TEST(StateFile, WithAnyBitTurnedIsRefused) {
 TEST(StateFile, OfAnotherKindOrVersionIsRefusedAsSuch) {
   EXPECT_EQ(Refusal("P5\n3 3\n255\n........."), "at byte 0: this is no state of a map");
   EXPECT_EQ(Refusal(""), "at byte 0: this is no state of a map");
-  const std::string newer = Forged(EncodeState(MapState()), 8, 2);
-  EXPECT_EQ(Refusal(newer), "at byte 8: its version is 2, this program reads version 1");
+  const std::string newer = Forged(EncodeState(MapState()), 8, 3);
+  EXPECT_EQ(Refusal(newer), "at byte 8: its version is 3, this program reads version 2");
 }
 
 TEST(StateFile, CountsThatTheBytesCannotHoldAreRefusedBeforeAnythingIsMade) {
@@ -116,6 +116,11 @@ TEST(StateFile, WhatRefersToNothingIsRefused) {
             std::string::npos);
   state.graph.constraints.front().to = 0;
   EXPECT_NE(Refusal(EncodeState(state)), "") << "a keyframe is not tied to itself";
+  state = DistinctNumbers().State();
+  state.graph.anchors[2].keyframe = 2;
+  EXPECT_NE(Refusal(EncodeState(state)).find("the index 2 is not between -1 and 1"),
+            std::string::npos)
+      << "a keyframe does not hang on itself";
 }
 
 TEST(StateFile, NumbersThatAreNoneAreRefused) {

@@ -19,6 +19,7 @@ class DistinctNumbers {
     }
     state.graph.constraints = {NextConstraint(0, 1), NextConstraint(1, 2), NextConstraint(0, 2)};
     state.graph.constraints.back().robust = true;
+    state.graph.anchors = {{1, {0, NextPose()}}, {2, {1, NextPose()}}};
     state.graph.closures_since_optimization = 7;
     for (int keyframe = -1; keyframe < 2; ++keyframe) state.drawn.push_back(NextDrawn(keyframe));
     state.chain = {1'700'000'000'000'000'111LL, 1'700'000'000'000'000'222LL, NextPose()};
@@ -68,7 +69,7 @@ class DistinctNumbers {
     return keyframe;
   }
   GraphConstraint NextConstraint(int from, int to) {
-    return {from, to, NextPose(), NextMatrix<Eigen::Matrix3d>(), false};
+    return {from, to, NextPose(), NextMatrix<Eigen::Matrix3d>(), false, Next()};
   }
   DrawnScan NextDrawn(int keyframe) {
     auto scan = std::make_shared<GridScan>();
@@ -130,6 +131,12 @@ inline void ExpectSame(const GraphMemory& a, const GraphMemory& b) {
     ExpectSame(a.constraints[i].from_from_to, b.constraints[i].from_from_to);
     EXPECT_EQ(a.constraints[i].information, b.constraints[i].information);
     EXPECT_EQ(a.constraints[i].robust, b.constraints[i].robust);
+    EXPECT_EQ(a.constraints[i].overlap, b.constraints[i].overlap);
+  }
+  ASSERT_EQ(a.anchors.size(), b.anchors.size());
+  for (const auto& [id, pose] : a.anchors) {
+    EXPECT_EQ(b.anchors.at(id).keyframe, pose.keyframe);
+    ExpectSame(b.anchors.at(id).keyframe_from_base, pose.keyframe_from_base);
   }
   EXPECT_EQ(a.closures_since_optimization, b.closures_since_optimization);
 }

@@ -27,8 +27,8 @@ struct Keyframe {
   Pose2 previous_from_base;  ///< motion since the keyframe before; of the first: map_from_base
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of that motion: (forward, left, turn)
                                                          ///< in the base frame [m, m, rad]
-  Eigen::Vector2d laser{0, 0};  ///< where the rays start, in the base frame [m]
-  std::vector<KeptPoint> points;
+  Eigen::Vector2d laser{0, 0};    ///< where the rays start, in the base frame [m]
+  std::vector<KeptPoint> points;  ///< none if the place was known well enough before
   std::vector<ModelEdge> edges;
 };
 

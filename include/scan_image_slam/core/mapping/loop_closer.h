@@ -2,6 +2,7 @@
 
 #include "scan_image_slam/core/mapping/graph_ways.h"
 #include "scan_image_slam/core/mapping/keyframe.h"
+#include "scan_image_slam/core/mapping/known_places.h"
 #include "scan_image_slam/core/mapping/loop_matcher.h"
 #include "scan_image_slam/core/mapping/map_state.h"
 #include "scan_image_slam/core/mapping/pose_graph.h"
@@ -34,12 +35,13 @@ struct LoopCloserOptions {
   double track_window = 0.5;              ///< smaller windows need no search [m]
   double closure_distance_stddev = 0.02;  ///< of a recognised place, at best [m]
   double closure_angle_stddev = 0.004;    ///< [rad]
-  int max_matches = 2;                    ///< submaps compared with one keyframe
+  KnownPlaceOptions known_places;
+  int max_matches = 2;  ///< submaps compared with one keyframe
   int max_cached_submaps = 12;
 };
 
 /// Recognises places seen before and keeps the poses of all keyframes consistent: the back-end of
-/// the mapper.
+/// the mapper. What a keyframe saw is kept to recognise its place by, unless that was known before.
 class LoopCloser {
  public:
   explicit LoopCloser(const LoopCloserOptions& options);
@@ -52,17 +54,15 @@ class LoopCloser {
 
   /// All that it knows; a closer of the same options that loads it goes on like this one.
   GraphMemory memory() const {
-    return {keyframes_, poses_, constraints_, closures_since_optimization_};
+    return {keyframes_, poses_, constraints_, anchors_, closures_since_optimization_};
   }
   void Load(GraphMemory memory);
 
   /// map_from_base of each keyframe.
   const std::vector<Pose2>& poses() const { return poses_; }
   const std::vector<GraphConstraint>& constraints() const { return constraints_; }
-  /// Places that were recognised: what the graph holds beside the chain of keyframes.
-  int closures() const {
-    return keyframes_.empty() ? 0 : static_cast<int>(constraints_.size() + 1 - keyframes_.size());
-  }
+  /// Places that were recognised, as far as the graph holds them.
+  int closures() const { return closures_; }
 
  private:
   /// Keyframes begin .. end - 1.
@@ -72,6 +72,7 @@ class LoopCloser {
   };
   void Enter(std::shared_ptr<const Keyframe> keyframe);
   void Join(const GraphConstraint& constraint);
+  void JoinOnly(const std::vector<GraphConstraint>& constraints);
   void ExtendSubmaps();
   Submap& GetSubmap(int id);
   std::vector<std::pair<int, int>> Candidates(int id) const;
@@ -80,12 +81,17 @@ class LoopCloser {
   void Optimize(const std::vector<GraphConstraint>& closures);
   bool Contradicted(const GraphConstraint& constraint, double deviation) const;
   bool TakeBack();
+  void ReleaseKnown();
+  void LeaveOutKnown();
+  void MoveAnchored();
 
   LoopCloserOptions options_;
   std::vector<std::shared_ptr<const Keyframe>> keyframes_;
   std::vector<Pose2> poses_;
   std::vector<GraphConstraint> constraints_;
   GraphLinks links_;
+  std::map<int, AttachedPose> anchors_;  ///< keyframes that the graph does without
+  int closures_ = 0;
   std::vector<Range> submaps_;
   struct CachedSubmap {
     std::unique_ptr<Submap> submap;
@@ -94,6 +100,7 @@ class LoopCloser {
   std::map<int, CachedSubmap> cache_;
   int use_count_ = 0;
   int closures_since_optimization_ = 0;
+  int next_to_release_ = 0;  ///< keyframes before it have been judged
 };
 
 }  // namespace scan_image_slam

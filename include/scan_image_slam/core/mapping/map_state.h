@@ -5,6 +5,7 @@
 #include "scan_image_slam/core/mapping/occupancy_grid.h"
 #include "scan_image_slam/core/mapping/pose_graph.h"
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct AttachedPose {
   int keyframe = -1;
   Pose2 keyframe_from_base;
 };
+
+/// Where it is if the keyframes are at these poses, map_from_base.
+inline Pose2 MapFromBase(const AttachedPose& pose, const std::vector<Pose2>& keyframe_poses) {
+  if (pose.keyframe < 0) return pose.keyframe_from_base;
+  return keyframe_poses[pose.keyframe] * pose.keyframe_from_base;
+}
 
 /// A scan in the occupancy grid.
 struct DrawnScan {
@@ -29,6 +36,7 @@ struct GraphMemory {
   std::vector<std::shared_ptr<const Keyframe>> keyframes;
   std::vector<Pose2> poses;  ///< map_from_base of each keyframe
   std::vector<GraphConstraint> constraints;
+  std::map<int, AttachedPose> anchors;  ///< of keyframes that the graph does without
   int closures_since_optimization = 0;  ///< of the whole graph
 };
 

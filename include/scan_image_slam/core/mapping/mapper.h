@@ -1,10 +1,10 @@
 #pragma once
 
 #include "scan_image_slam/core/fusion/fused_model.h"
+#include "scan_image_slam/core/mapping/drawn_map.h"
 #include "scan_image_slam/core/mapping/keyframe.h"
 #include "scan_image_slam/core/mapping/localizer.h"
 #include "scan_image_slam/core/mapping/map_state.h"
-#include "scan_image_slam/core/mapping/occupancy_grid.h"
 #include "scan_image_slam/core/matching/matched_motion.h"
 
 #include <memory>
@@ -18,11 +18,13 @@ struct MapperOptions {
   double map_update_distance_thresh = 0.1;  ///< driven since the last scan in the map [m]
   double map_update_angle_thresh = 0.1;     ///< turned since the last scan in the map [rad]
   double map_update_time_thresh = 1.0;      ///< passed since then [s]
+  int max_scans_per_place = 10;             ///< in the map, of half a metre and 45 degrees
   KeyframeOptions keyframe;
   double keyframe_distance = 0.4;          ///< driven since the last keyframe [m]
   double keyframe_angle = 0.4;             ///< turned since then [rad]
   double keyframe_distance_stddev = 0.01;  ///< of the motion between two keyframes, at best [m]
   double keyframe_angle_stddev = 0.003;    ///< [rad]
+  int max_trajectory_poses = 20000;        ///< a trajectory of more is thinned to half
   /// Throws std::invalid_argument, naming the field, if a value is out of range.
   void Validate() const;
 };
@@ -84,18 +86,19 @@ class Mapper {
   /// match, where the first pose will be.
   void SetPose(const Pose2& map_from_base);
 
-  const OccupancyGrid& grid() const { return grid_; }
-  OccupancyGrid& grid() { return grid_; }
+  const OccupancyGrid& grid() const { return drawn_.grid(); }
+  OccupancyGrid& grid() { return drawn_.grid(); }
 
   /// Draws scans anew where a correction has moved them, the latest first and at most so many.
   /// Returns true if none is left.
-  bool Redraw(int max_scans);
+  bool Redraw(int max_scans) { return drawn_.Redraw(keyframe_poses_, max_scans); }
 
-  /// Poses of all scans since the start or Load, as known now, but those of a lost robot.
+  /// Poses of the scans since the start or Load, as known now, but those of a lost robot: of all
+  /// of them, or of some that are evenly spaced along the way if they are too many.
   std::vector<MapPose> Trajectory() const;
 
   /// What the map is drawn from.
-  const std::vector<DrawnScan>& drawn() const { return drawn_; }
+  const DrawnMap& drawn() const { return drawn_; }
 
   bool lost() const { return lost_; }
   /// False while a loaded map stays as it is.
@@ -118,10 +121,10 @@ class Mapper {
   void MoveRobot(const Pose2& new_from_old);
   std::shared_ptr<const Keyframe> Keep(const FusedModel& model, const MatchedMotion& match);
   AttachedPose Attach(const Pose2& map_from_base) const;
-  Pose2 MapFromBase(const AttachedPose& pose) const;
+  void Track(const MapPose& pose);
 
   MapperOptions options_;
-  OccupancyGrid grid_;
+  DrawnMap drawn_;
   std::optional<Stamp> start_stamp_;  ///< of the chain of matches that poses come from
   Pose2 map_from_start_;
   Eigen::Matrix3d start_covariance_ = Eigen::Matrix3d::Zero();  ///< of that start
@@ -137,8 +140,7 @@ class Mapper {
   Stamp kept_start_stamp_ = 0;  ///< chain of the last keyframe
   Eigen::Matrix3d kept_covariance_ = Eigen::Matrix3d::Zero();
   std::vector<TrackedPose> tracked_;
-  std::vector<DrawnScan> drawn_;
-  std::size_t to_redraw_ = 0;  ///< the scans before this one may lie where they were
+  double tracked_spacing_ = 0.0;  ///< between them, at least [m]
 
   KnownChain loaded_chain_;
   bool localize_ = false;              ///< the map stays as it is

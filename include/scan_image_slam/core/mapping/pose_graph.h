@@ -16,6 +16,7 @@ struct GraphConstraint {
   Eigen::Matrix3d information =
       Eigen::Matrix3d::Identity();  ///< of (forward, left, turn) of `to` [1/m^2, 1/m^2, 1/rad^2]
   bool robust = false;              ///< a recognised place, which may be wrong: Cauchy's loss
+  double overlap = 0.0;             ///< share of what `to` saw that was known there [-]
 
   /// True if it tells of a place seen before, not of the way from one keyframe to the next.
   bool closes_loop() const { return from + 1 != to; }

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "scan_image_slam/core/mapping/graph_ways.h"
+#include "scan_image_slam/core/mapping/keyframe.h"
+#include "scan_image_slam/core/mapping/map_state.h"
+#include "scan_image_slam/core/mapping/pose_graph.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace scan_image_slam {
+
+struct KnownPlaceOptions {
+  double max_distance = 0.5;  ///< from a keyframe to the one that knows its place [m]
+  double max_angle = 0.5;     ///< [rad]
+  double min_overlap = 0.9;   ///< share of what it saw that was known there [-]
+  int max_visits = 3;         ///< of one place that the graph is the better for
+};
+
+/// Tells which keyframes have brought nothing new: what they saw had been seen from nearly the same
+/// pose before. A view for the moment of what a LoopCloser holds; it keeps references.
+class KnownPlaces {
+ public:
+  KnownPlaces(const std::vector<std::shared_ptr<const Keyframe>>& keyframes,
+              const std::vector<GraphConstraint>& constraints, const GraphLinks& links,
+              const std::map<int, AttachedPose>& anchors, const KnownPlaceOptions& options)
+      : keyframes_(keyframes),
+        constraints_(constraints),
+        links_(links),
+        anchors_(anchors),
+        options_(options) {}
+
+  /// The keyframe that knew what this one saw, and is kept itself; nothing if there is none.
+  std::optional<int> AnchorOf(int id) const;
+
+  /// True if the graph can do without a keyframe whose points were let go: its neighbours in time
+  /// are known as well, so that each part of the graph stays tied to the rest, and its place was
+  /// visited often enough.
+  bool IsNeedless(int id) const;
+
+ private:
+  bool Shows(const GraphConstraint& constraint, int id) const;
+  bool IsKnown(int id) const { return anchors_.count(id) > 0 || AnchorOf(id); }
+
+  const std::vector<std::shared_ptr<const Keyframe>>& keyframes_;
+  const std::vector<GraphConstraint>& constraints_;
+  const GraphLinks& links_;
+  const std::map<int, AttachedPose>& anchors_;
+  const KnownPlaceOptions& options_;
+};
+
+}  // namespace scan_image_slam

@@ -1,0 +1,35 @@
+#include "scan_image_slam/core/mapping/known_places.h"
+
+#include <cmath>
+
+namespace scan_image_slam {
+
+/// True if a constraint shows that the place of a keyframe was known.
+bool KnownPlaces::Shows(const GraphConstraint& c, int id) const {
+  return c.closes_loop() && c.to == id && c.overlap >= options_.min_overlap &&
+         c.from_from_to.translation().norm() <= options_.max_distance &&
+         std::abs(c.from_from_to.theta) <= options_.max_angle &&
+         !keyframes_[c.from]->points.empty();
+}
+
+std::optional<int> KnownPlaces::AnchorOf(int id) const {
+  for (const GraphLink& link : links_[id]) {
+    if (Shows(constraints_[link.constraint], id)) return link.node;
+  }
+  return std::nullopt;
+}
+
+bool KnownPlaces::IsNeedless(int id) const {
+  if (!keyframes_[id]->points.empty() || !IsKnown(id - 1) || !IsKnown(id + 1)) return false;
+  const std::optional<int> anchor = AnchorOf(id);
+  if (!anchor) return false;
+  int visits = 0;
+  for (const GraphLink& link : links_[*anchor]) {
+    if (constraints_[link.constraint].closes_loop() && link.node > *anchor && link.node < id) {
+      ++visits;
+    }
+  }
+  return visits >= options_.max_visits;
+}
+
+}  // namespace scan_image_slam

@@ -1,0 +1,99 @@
+#include "scan_image_slam/core/mapping/known_places.h"
+
+#include <gtest/gtest.h>
+
+namespace scan_image_slam {
+namespace {
+
+/// Four visits, each of three places 1 m apart: keyframe 3 k + i is that of visit k to place i. The
+/// later visits were recognised by the first, and what they saw was let go.
+class FourVisits : public ::testing::Test {
+ protected:
+  static constexpr int kPlaces = 3;
+  static constexpr int kKeyframes = 4 * kPlaces;
+
+  FourVisits() : links_(kKeyframes) {
+    for (int id = 0; id < kKeyframes; ++id) {
+      auto keyframe = std::make_shared<Keyframe>();
+      keyframe->id = id;
+      if (id < kPlaces) keyframe->points.resize(10);
+      keyframes_.push_back(keyframe);
+      if (id > 0) Join(id - 1, id, 0.0);
+      if (id >= kPlaces) Join(id % kPlaces, id, 0.95);
+    }
+  }
+  void Join(int from, int to, double overlap) {
+    GraphConstraint constraint;
+    constraint.from = from;
+    constraint.to = to;
+    constraint.from_from_to = {0.3, 0.3, 0.4};
+    constraint.overlap = overlap;
+    const int index = static_cast<int>(constraints_.size());
+    links_[from].push_back({to, index, 1.0});
+    links_[to].push_back({from, index, 1.0});
+    constraints_.push_back(constraint);
+  }
+  GraphConstraint& Closure(int to) {
+    for (GraphConstraint& c : constraints_) {
+      if (c.to == to && c.from == to % kPlaces) return c;
+    }
+    throw std::logic_error("no closure");
+  }
+  KnownPlaces Places() const {
+    return KnownPlaces(keyframes_, constraints_, links_, anchors_, options_);
+  }
+
+  std::vector<std::shared_ptr<const Keyframe>> keyframes_;
+  std::vector<GraphConstraint> constraints_;
+  GraphLinks links_;
+  std::map<int, AttachedPose> anchors_;
+  KnownPlaceOptions options_;
+};
+
+TEST_F(FourVisits, TheFirstVisitKnowsThePlaceOfTheLater) {
+  EXPECT_FALSE(Places().AnchorOf(1));
+  EXPECT_EQ(Places().AnchorOf(4), 1);
+  EXPECT_EQ(Places().AnchorOf(11), 2);
+}
+
+TEST_F(FourVisits, AKeyframeThatSawMoreOrElsewhereIsNotKnown) {
+  Closure(3).overlap = 0.85;
+  EXPECT_FALSE(Places().AnchorOf(3));
+  Closure(4).from_from_to = {0.4, 0.4, 0.0};
+  EXPECT_FALSE(Places().AnchorOf(4));
+  Closure(5).from_from_to = {0.0, 0.0, -0.6};
+  EXPECT_FALSE(Places().AnchorOf(5));
+}
+
+TEST_F(FourVisits, OneThatWasLetGoKnowsNoPlace) {
+  keyframes_[1] = std::make_shared<Keyframe>();
+  EXPECT_FALSE(Places().AnchorOf(4));
+}
+
+TEST_F(FourVisits, TheGraphIsTheBetterForThreeVisitsMore) {
+  EXPECT_FALSE(Places().IsNeedless(7));
+  EXPECT_FALSE(Places().IsNeedless(10));  // only two between the first and it
+  options_.max_visits = 2;
+  EXPECT_FALSE(Places().IsNeedless(7));
+  EXPECT_TRUE(Places().IsNeedless(10));
+}
+
+TEST_F(FourVisits, NeighboursHoldTheGraphTogether) {
+  options_.max_visits = 2;
+  Closure(11).overlap = 0.5;
+  EXPECT_FALSE(Places().IsNeedless(10));
+  Closure(11).overlap = 0.95;
+  Closure(9).overlap = 0.5;
+  EXPECT_FALSE(Places().IsNeedless(10));
+  anchors_[9] = {};  // which the graph does without already
+  EXPECT_TRUE(Places().IsNeedless(10));
+}
+
+TEST_F(FourVisits, WhatIsKeptIsNeeded) {
+  options_.max_visits = 2;
+  keyframes_[10] = keyframes_[0];
+  EXPECT_FALSE(Places().IsNeedless(10));
+}
+
+}  // namespace
+}  // namespace scan_image_slam
