@@ -42,6 +42,10 @@ void Declare(CLI::App& app, Arguments& a) {
   app.add_option("--duration", a.duration, "length [s]; without it, until the path is driven")
       ->check(CLI::Range(0.1, 1e5));
   app.add_option("--path", a.options.path, "path of the world file to drive; default the first");
+  app.add_option("--rounds", a.options.rounds,
+                 "drive the path so often: from its end on to its first way point")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   app.add_flag("--no-noise", a.options.ideal, "ideal sensors and encoders");
   app.add_flag("--encoder-errors", a.encoder_errors,
                "with --no-noise: encoders keep their errors of radius and wheel base");

@@ -85,7 +85,9 @@ void ReplaceFiles(const std::vector<FileContent>& files) {
 }
 
 void ReplaceFile(const std::string& path, const std::string& content) {
-  ReplaceFiles({{path, content}});
+  TemporaryFile file(path);  // not by ReplaceFiles, as the content may be large to copy
+  file.Write(content);
+  file.TakePlace();
 }
 
 std::string ReadWholeFile(const std::string& path) {

@@ -1,12 +1,28 @@
 #include "scan_image_slam/core/mapping/known_places.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 namespace scan_image_slam {
+namespace {
+
+/// Of the position that a constraint tells, in the direction that it tells least of [m].
+double LargestStddev(const Eigen::Matrix3d& information) {
+  const Eigen::Matrix2d position = information.inverse().topLeftCorner<2, 2>();
+  const double largest =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues().maxCoeff();
+  return largest >= 0.0 ? std::sqrt(largest) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
 
 /// True if a constraint shows that the place of a keyframe was known.
 bool KnownPlaces::Shows(const GraphConstraint& c, int id) const {
-  return c.closes_loop() && c.to == id && c.overlap >= options_.min_overlap &&
+  return c.closes_loop && c.to == id && c.overlap >= options_.min_overlap &&
          c.from_from_to.translation().norm() <= options_.max_distance &&
          std::abs(c.from_from_to.theta) <= options_.max_angle &&
          !keyframes_[c.from]->points.empty();
@@ -19,17 +35,42 @@ std::optional<int> KnownPlaces::AnchorOf(int id) const {
   return std::nullopt;
 }
 
+bool KnownPlaces::IsTied(int id) const {
+  return std::any_of(links_[id].begin(), links_[id].end(), [&](const GraphLink& link) {
+    const GraphConstraint& c = constraints_[link.constraint];
+    return Shows(c, id) && LargestStddev(c.information) <= options_.max_stddev;
+  });
+}
+
 bool KnownPlaces::IsNeedless(int id) const {
-  if (!keyframes_[id]->points.empty() || !IsKnown(id - 1) || !IsKnown(id + 1)) return false;
+  if (!keyframes_[id]->points.empty() || !IsTied(id + 1)) return false;
+  if (anchors_.count(id - 1) == 0 && !IsTied(id - 1)) return false;
   const std::optional<int> anchor = AnchorOf(id);
   if (!anchor) return false;
   int visits = 0;
   for (const GraphLink& link : links_[*anchor]) {
-    if (constraints_[link.constraint].closes_loop() && link.node > *anchor && link.node < id) {
+    if (constraints_[link.constraint].closes_loop && link.node > *anchor && link.node < id) {
       ++visits;
     }
   }
   return visits >= options_.max_visits;
+}
+
+std::vector<GraphConstraint> Without(const std::map<int, AttachedPose>& anchors,
+                                     const std::vector<GraphConstraint>& constraints) {
+  std::vector<GraphConstraint> kept;
+  std::optional<GraphConstraint> way;  // to a keyframe that is anchored
+  for (const GraphConstraint& c : constraints) {
+    if (c.closes_loop) {
+      if (anchors.count(c.from) == 0 && anchors.count(c.to) == 0) kept.push_back(c);
+      continue;
+    }
+    way = way ? Chained(*way, c) : c;
+    if (anchors.count(c.to) > 0) continue;
+    kept.push_back(*way);
+    way.reset();
+  }
+  return kept;
 }
 
 }  // namespace scan_image_slam

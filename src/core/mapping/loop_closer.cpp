@@ -82,12 +82,12 @@ void LoopCloser::Join(const GraphConstraint& constraint) {
   constexpr double kRecognised = 0.5;  // [m]
   const auto [from, to] = std::make_pair(constraint.from, constraint.to);
   const double way =
-      constraint.closes_loop() ? kRecognised : keyframes_[to]->way - keyframes_[from]->way;
+      constraint.closes_loop ? kRecognised : keyframes_[to]->way - keyframes_[from]->way;
   const int index = static_cast<int>(constraints_.size());
   links_[from].push_back({to, index, way});
   links_[to].push_back({from, index, way});
   constraints_.push_back(constraint);
-  closures_ += constraint.closes_loop() ? 1 : 0;
+  closures_ += constraint.closes_loop ? 1 : 0;
 }
 
 /// Forgets all other constraints.
@@ -213,7 +213,7 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
   closure.from_from_to = submap_from_near.Inverse() * match->submap_from_base;
   closure.information =
       WithNoise(match->information, Eigen::Vector3d(s * s, s * s, a * a).asDiagonal());
-  closure.robust = true;
+  closure.closes_loop = true;
   closure.overlap = match->overlap;
   return closure;
 }
@@ -245,7 +245,7 @@ bool LoopCloser::Contradicted(const GraphConstraint& constraint, double deviatio
 bool LoopCloser::TakeBack() {
   std::vector<GraphConstraint> kept;
   for (const GraphConstraint& c : constraints_) {
-    if (!c.closes_loop() || !Contradicted(c, options_.max_deviation)) kept.push_back(c);
+    if (!c.closes_loop || !Contradicted(c, options_.max_deviation)) kept.push_back(c);
   }
   if (kept.size() == constraints_.size()) return false;
   JoinOnly(kept);
@@ -275,12 +275,7 @@ void LoopCloser::LeaveOutKnown() {
     const int anchor = *places.AnchorOf(id);
     anchors_[id] = {anchor, poses_[anchor].Inverse() * poses_[id]};
   }
-  if (anchors_.size() == before) return;
-  std::vector<GraphConstraint> kept;
-  for (const GraphConstraint& c : constraints_) {
-    if (anchors_.count(c.from) == 0 && anchors_.count(c.to) == 0) kept.push_back(c);
-  }
-  JoinOnly(kept);
+  if (anchors_.size() > before) JoinOnly(Without(anchors_, constraints_));
 }
 
 void LoopCloser::MoveAnchored() {

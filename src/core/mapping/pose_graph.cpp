@@ -1,9 +1,12 @@
 #include "scan_image_slam/core/mapping/pose_graph.h"
 
+#include "scan_image_slam/core/geometry/covariance.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <ceres/ceres.h>
 
 namespace scan_image_slam {
@@ -64,6 +67,17 @@ class ConstraintCost : public ceres::SizedCostFunction<3, 3, 3> {
 
 }  // namespace
 
+GraphConstraint Chained(const GraphConstraint& first, const GraphConstraint& second) {
+  GraphConstraint chained = second;
+  chained.from = first.from;
+  chained.from_from_to = first.from_from_to * second.from_from_to;
+  const Eigen::Matrix3d covariance =
+      TransportCovariance(first.information.inverse(), second.from_from_to) +
+      second.information.inverse();
+  chained.information = covariance.inverse();
+  return chained;
+}
+
 double SquaredResidual(const GraphConstraint& constraint, const std::vector<Pose2>& nodes) {
   const Eigen::Vector3d d =
       Difference(constraint.from_from_to, nodes[constraint.from], nodes[constraint.to]);
@@ -82,7 +96,8 @@ std::vector<Pose2> OptimizeGraph(std::vector<Pose2> nodes,
   std::vector<bool> used(nodes.size(), false);
   for (const GraphConstraint& constraint : constraints) {
     if (std::max(constraint.from, constraint.to) < first_free) continue;
-    ceres::LossFunction* loss = constraint.robust ? new ceres::CauchyLoss(options.kernel) : nullptr;
+    ceres::LossFunction* loss =
+        constraint.closes_loop ? new ceres::CauchyLoss(options.kernel) : nullptr;
     problem.AddResidualBlock(new ConstraintCost(constraint), loss, values[constraint.from].data(),
                              values[constraint.to].data());
     used[constraint.from] = true;

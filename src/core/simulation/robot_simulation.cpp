@@ -32,13 +32,21 @@ TrueState StartState(const Scenario& scenario, const SimulationOptions& options)
   return {options.start, FindPath(scenario, options.path).start, 0.0, 0.0};
 }
 
+RobotPath Repeated(RobotPath path, int rounds) {
+  const std::vector<Eigen::Vector2d> round = path.way_points;
+  for (int i = 1; i < rounds; ++i) {
+    path.way_points.insert(path.way_points.end(), round.begin(), round.end());
+  }
+  return path;
+}
+
 }  // namespace
 
 RobotSimulation::RobotSimulation(Scenario scenario, const SimulationOptions& options)
     : scenario_(Prepare(std::move(scenario), options)),
       options_(options),
       faults_(scenario_.faults),
-      follower_(FindPath(scenario_, options.path)),
+      follower_(Repeated(FindPath(scenario_, options.path), options.rounds)),
       drive_(scenario_.base, StartState(scenario_, options), options.seed),
       encoders_(scenario_.base, options.seed, options.start),
       laser_(scenario_.world, scenario_.laser, options.seed, options.start),

@@ -18,16 +18,18 @@ class FourVisits : public ::testing::Test {
       keyframe->id = id;
       if (id < kPlaces) keyframe->points.resize(10);
       keyframes_.push_back(keyframe);
-      if (id > 0) Join(id - 1, id, 0.0);
-      if (id >= kPlaces) Join(id % kPlaces, id, 0.95);
+      if (id > 0) Join(id - 1, id, false);
+      if (id >= kPlaces) Join(id % kPlaces, id, true);
     }
   }
-  void Join(int from, int to, double overlap) {
+  void Join(int from, int to, bool closes_loop) {
     GraphConstraint constraint;
     constraint.from = from;
     constraint.to = to;
     constraint.from_from_to = {0.3, 0.3, 0.4};
-    constraint.overlap = overlap;
+    constraint.information = 400.0 * Eigen::Matrix3d::Identity();
+    constraint.closes_loop = closes_loop;
+    constraint.overlap = closes_loop ? 0.95 : 0.0;
     const int index = static_cast<int>(constraints_.size());
     links_[from].push_back({to, index, 1.0});
     links_[to].push_back({from, index, 1.0});
@@ -35,7 +37,7 @@ class FourVisits : public ::testing::Test {
   }
   GraphConstraint& Closure(int to) {
     for (GraphConstraint& c : constraints_) {
-      if (c.to == to && c.from == to % kPlaces) return c;
+      if (c.to == to && c.closes_loop) return c;
     }
     throw std::logic_error("no closure");
   }
@@ -87,6 +89,35 @@ TEST_F(FourVisits, NeighboursHoldTheGraphTogether) {
   EXPECT_FALSE(Places().IsNeedless(10));
   anchors_[9] = {};  // which the graph does without already
   EXPECT_TRUE(Places().IsNeedless(10));
+}
+
+TEST_F(FourVisits, ACorridorTiesNothingAlongIt) {
+  options_.max_visits = 2;
+  Closure(9).information = Eigen::Vector3d(1.0, 400.0, 400.0).asDiagonal();
+  EXPECT_FALSE(Places().IsNeedless(10));
+  Closure(9).information = Eigen::Vector3d(0.0, 400.0, 400.0).asDiagonal();
+  EXPECT_FALSE(Places().IsNeedless(10));
+  EXPECT_EQ(Places().AnchorOf(9), 0);  // what was seen was known
+}
+
+TEST_F(FourVisits, TheWayPastWhatIsLeftOutIsKept) {
+  anchors_[4] = {};
+  anchors_[5] = {};
+  const std::vector<GraphConstraint> kept = Without(anchors_, constraints_);
+  EXPECT_EQ(kept.size(), constraints_.size() - 2 - 2);  // closures; two of three steps
+  std::vector<int> ways;
+  for (const GraphConstraint& c : kept) {
+    if (!c.closes_loop) ways.push_back(c.from);
+    if (c.closes_loop || c.from != 3) continue;
+    EXPECT_EQ(c.to, 6);
+    const Pose2 step{0.3, 0.3, 0.4};
+    const Pose2 apart = (step * step * step).Inverse() * c.from_from_to;
+    EXPECT_LT(apart.coordinates().norm(), 1e-12);
+  }
+  EXPECT_EQ(ways, (std::vector<int>{0, 1, 2, 3, 6, 7, 8, 9, 10}));
+  // What is left out later is left out of what was left.
+  const std::vector<GraphConstraint> less = Without({{7, {}}}, kept);
+  EXPECT_EQ(less.size(), kept.size() - 2);
 }
 
 TEST_F(FourVisits, WhatIsKeptIsNeeded) {

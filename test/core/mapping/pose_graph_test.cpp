@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 namespace scan_image_slam {
@@ -87,11 +88,11 @@ TEST(OptimizeGraph, AWrongPlaceAmongManyRightOnesIsOverruled) {
   for (int i = 1; i < 10; ++i) constraints.push_back(Between(nodes, i - 1, i, 1e4));
   for (int i = 5; i < 10; ++i) {
     constraints.push_back(Between(nodes, 0, i, 1e4));
-    constraints.back().robust = true;
+    constraints.back().closes_loop = true;
   }
   GraphConstraint wrong = Between(nodes, 0, 9, 1e4);
   wrong.from_from_to.y = 3.0;
-  wrong.robust = true;
+  wrong.closes_loop = true;
   constraints.push_back(wrong);
   const std::vector<Pose2> found = OptimizeGraph(nodes, constraints, 1, GraphOptions());
   EXPECT_NEAR(found[9].y, 0.0, 0.02);
@@ -107,6 +108,32 @@ TEST(SquaredResidual, IsMeasuredInTheFrameOfTheMeasuredPose) {
   constraint.from_from_to = {1.0, 0.0, M_PI_2};
   constraint.information = Eigen::Vector3d(100.0, 1.0, 1.0).asDiagonal();
   EXPECT_NEAR(SquaredResidual(constraint, {{0, 0, 0}, {1.0, 0.2, M_PI_2}}), 100.0 * 0.04, 1e-9);
+}
+
+// Two motions of 3 m straight ahead: the turn of the first moves the end sideways by 3 m times its
+// error.
+TEST(PoseGraph, TwoMotionsInARowHaveTheErrorsOfBoth) {
+  constexpr double kForward = 0.01;
+  constexpr double kLeft = 0.04;
+  constexpr double kTurn = 0.0025;
+  GraphConstraint first;
+  first.from = 4;
+  first.to = 5;
+  first.from_from_to = {3.0, 0.0, 0.0};
+  first.information = Eigen::Vector3d(1 / kForward, 1 / kLeft, 1 / kTurn).asDiagonal();
+  GraphConstraint second = first;
+  second.from = 5;
+  second.to = 8;
+  const GraphConstraint both = Chained(first, second);
+  EXPECT_EQ(both.from, 4);
+  EXPECT_EQ(both.to, 8);
+  EXPECT_DOUBLE_EQ(both.from_from_to.x, 6.0);
+  EXPECT_FALSE(both.closes_loop);
+  const Eigen::Matrix3d covariance = both.information.inverse();
+  EXPECT_NEAR(covariance(0, 0), 2 * kForward, 1e-9);
+  EXPECT_NEAR(covariance(1, 1), 2 * kLeft + 9 * kTurn, 1e-9);
+  EXPECT_NEAR(covariance(2, 2), 2 * kTurn, 1e-9);
+  EXPECT_NEAR(covariance(1, 2), 3 * kTurn, 1e-9);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct KnownPlaceOptions {
   double max_distance = 0.5;  ///< from a keyframe to the one that knows its place [m]
   double max_angle = 0.5;     ///< [rad]
   double min_overlap = 0.9;   ///< share of what it saw that was known there [-]
+  double max_stddev = 0.1;    ///< of where it was recognised to be, in any direction [m]
   int max_visits = 3;         ///< of one place that the graph is the better for
 };
 
@@ -35,14 +36,14 @@ class KnownPlaces {
   /// The keyframe that knew what this one saw, and is kept itself; nothing if there is none.
   std::optional<int> AnchorOf(int id) const;
 
-  /// True if the graph can do without a keyframe whose points were let go: its neighbours in time
-  /// are known as well, so that each part of the graph stays tied to the rest, and its place was
-  /// visited often enough.
+  /// True if the graph can do without a keyframe whose points were let go: its place was visited
+  /// often enough, and the keyframes before and after it are tied to known places in every
+  /// direction (a corridor ties nothing along it), so that no part of the graph comes loose.
   bool IsNeedless(int id) const;
 
  private:
   bool Shows(const GraphConstraint& constraint, int id) const;
-  bool IsKnown(int id) const { return anchors_.count(id) > 0 || AnchorOf(id); }
+  bool IsTied(int id) const;
 
   const std::vector<std::shared_ptr<const Keyframe>>& keyframes_;
   const std::vector<GraphConstraint>& constraints_;
@@ -50,5 +51,10 @@ class KnownPlaces {
   const std::map<int, AttachedPose>& anchors_;
   const KnownPlaceOptions& options_;
 };
+
+/// The constraints between the keyframes that are not anchored: places that were recognised, and
+/// the way from one such keyframe to the next. `constraints` hold the ways in the order of time.
+std::vector<GraphConstraint> Without(const std::map<int, AttachedPose>& anchors,
+                                     const std::vector<GraphConstraint>& constraints);
 
 }  // namespace scan_image_slam

@@ -18,7 +18,7 @@ struct MapperOptions {
   double map_update_distance_thresh = 0.1;  ///< driven since the last scan in the map [m]
   double map_update_angle_thresh = 0.1;     ///< turned since the last scan in the map [rad]
   double map_update_time_thresh = 1.0;      ///< passed since then [s]
-  int max_scans_per_place = 10;             ///< in the map, of half a metre and 45 degrees
+  int max_scans_per_place = 5;              ///< in the map, of half a metre and 45 degrees
   KeyframeOptions keyframe;
   double keyframe_distance = 0.4;          ///< driven since the last keyframe [m]
   double keyframe_angle = 0.4;             ///< turned since then [rad]

@@ -15,12 +15,12 @@ struct GraphConstraint {
   Pose2 from_from_to;
   Eigen::Matrix3d information =
       Eigen::Matrix3d::Identity();  ///< of (forward, left, turn) of `to` [1/m^2, 1/m^2, 1/rad^2]
-  bool robust = false;              ///< a recognised place, which may be wrong: Cauchy's loss
+  bool closes_loop = false;         ///< a recognised place, which may be wrong: Cauchy's loss
   double overlap = 0.0;             ///< share of what `to` saw that was known there [-]
-
-  /// True if it tells of a place seen before, not of the way from one keyframe to the next.
-  bool closes_loop() const { return from + 1 != to; }
 };
+
+/// What two motions in a row tell of the pose of the last node in the frame of the first.
+GraphConstraint Chained(const GraphConstraint& first, const GraphConstraint& second);
 
 /// Squared residual of a constraint, in standard deviations.
 double SquaredResidual(const GraphConstraint& constraint, const std::vector<Pose2>& nodes);

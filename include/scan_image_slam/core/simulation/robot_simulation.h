@@ -23,6 +23,7 @@ struct SimulationOptions {
   bool ideal = false;          ///< sensors without noise, bias, rounding, losses and blur
   bool ideal_encoders = true;  ///< if `ideal`: encoders without errors of radius and wheel base
   std::string path;            ///< name of the path; empty: the first
+  int rounds = 1;              ///< so often the path is driven, from its end on to its way points
   bool follow_path = true;     ///< else the robot waits for Drive()
   /// Length of the run [s]; without, it ends with the path (never, if no path is followed).
   std::optional<double> duration;
