@@ -20,8 +20,7 @@ Eigen::Matrix3d CovarianceOf(const GraphConstraint& constraint) {
 
 }  // namespace
 
-GraphWays::GraphWays(const GraphLinks& links, int from, const std::vector<int>& targets)
-    : steps_(links.size()) {
+GraphWays::GraphWays(const GraphLinks& links, int from, const std::vector<int>& targets) {
   std::set<int> left(targets.begin(), targets.end());
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
@@ -34,18 +33,24 @@ GraphWays::GraphWays(const GraphLinks& links, int from, const std::vector<int>& 
     left.erase(node);
     for (const GraphLink& link : links[node]) {
       const double longer = length + link.way;
-      if (longer >= steps_[link.node].length) continue;
-      steps_[link.node] = {longer, node, link.constraint};
+      Step& step = steps_[link.node];
+      if (longer >= step.length) continue;
+      step = {longer, node, link.constraint};
       open.push({longer, link.node});
     }
   }
 }
 
+GraphWays::Step GraphWays::At(int node) const {
+  const auto found = steps_.find(node);
+  return found == steps_.end() ? Step() : found->second;
+}
+
 Eigen::Matrix3d GraphWays::Covariance(const std::vector<GraphConstraint>& constraints,
                                       int to) const {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (int node = to; steps_[node].before >= 0; node = steps_[node].before) {
-    const GraphConstraint& constraint = constraints[steps_[node].constraint];
+  for (int node = to; At(node).before >= 0; node = At(node).before) {
+    const GraphConstraint& constraint = constraints[At(node).constraint];
     const Eigen::Matrix3d step = CovarianceOf(constraint);
     if (constraint.from == node) {
       covariance = TransportCovariance(covariance, constraint.from_from_to) + step;

@@ -1,25 +1,8 @@
 #include "scan_image_slam/core/mapping/known_places.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 namespace scan_image_slam {
-namespace {
-
-/// Of the position that a constraint tells, in the direction that it tells least of [m].
-double LargestStddev(const Eigen::Matrix3d& information) {
-  const Eigen::Matrix2d position = information.inverse().topLeftCorner<2, 2>();
-  const double largest =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position).eigenvalues().maxCoeff();
-  return largest >= 0.0 ? std::sqrt(largest) : std::numeric_limits<double>::infinity();
-}
-
-}  // namespace
-
 /// True if a constraint shows that the place of a keyframe was known.
 bool KnownPlaces::Shows(const GraphConstraint& c, int id) const {
   return c.closes_loop && c.to == id && c.overlap >= options_.min_overlap &&
@@ -35,16 +18,8 @@ std::optional<int> KnownPlaces::AnchorOf(int id) const {
   return std::nullopt;
 }
 
-bool KnownPlaces::IsTied(int id) const {
-  return std::any_of(links_[id].begin(), links_[id].end(), [&](const GraphLink& link) {
-    const GraphConstraint& c = constraints_[link.constraint];
-    return Shows(c, id) && LargestStddev(c.information) <= options_.max_stddev;
-  });
-}
-
 bool KnownPlaces::IsNeedless(int id) const {
-  if (!keyframes_[id]->points.empty() || !IsTied(id + 1)) return false;
-  if (anchors_.count(id - 1) == 0 && !IsTied(id - 1)) return false;
+  if (!keyframes_[id]->points.empty() || !IsKnown(id - 1) || !IsKnown(id + 1)) return false;
   const std::optional<int> anchor = AnchorOf(id);
   if (!anchor) return false;
   int visits = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -103,22 +104,23 @@ void LoopCloser::ExtendSubmaps() {
   const Keyframe& keyframe = *keyframes_[id];
   const bool begins =
       submaps_.empty() || !keyframe.joined ||
-      keyframe.way - keyframes_[submaps_.back().begin]->way > 0.5 * options_.submap_way;
-  for (std::size_t i = submaps_.size(); i-- > 0;) {
-    Range& range = submaps_[i];
+      keyframe.way - keyframes_[submaps_.rbegin()->second.begin]->way > 0.5 * options_.submap_way;
+  for (auto submap = submaps_.rbegin(); submap != submaps_.rend(); ++submap) {
+    Range& range = submap->second;
     if (range.end != id) break;
     if (keyframe.joined && keyframe.way - keyframes_[range.begin]->way <= options_.submap_way) {
       range.end = id + 1;
     }
   }
-  if (begins) submaps_.push_back({id, id + 1});
+  const int next = submaps_.empty() ? 0 : submaps_.rbegin()->first + 1;
+  if (begins) submaps_[next] = {id, id + 1};
 }
 
 Submap& LoopCloser::GetSubmap(int id) {
   CachedSubmap& cached = cache_[id];
   cached.used = ++use_count_;
   if (!cached.submap) {
-    const Range range = submaps_[id];
+    const Range range = submaps_.at(id);
     const std::vector<std::shared_ptr<const Keyframe>> keyframes(keyframes_.begin() + range.begin,
                                                                  keyframes_.begin() + range.end);
     cached.submap = std::make_unique<Submap>(keyframes, ChainOf(keyframes), options_.submap);
@@ -141,10 +143,9 @@ std::vector<std::pair<int, int>> LoopCloser::Candidates(int id) const {
     int submap_id;
   };
   std::vector<Candidate> found;
-  for (std::size_t s = 0; s < submaps_.size(); ++s) {
-    const Range range = submaps_[s];
+  for (const auto& [submap_id, range] : submaps_) {
     if (keyframe.way - keyframes_[range.end - 1]->way < options_.min_loop_way) break;
-    Candidate best{std::numeric_limits<double>::infinity(), 0, static_cast<int>(s)};
+    Candidate best{std::numeric_limits<double>::infinity(), 0, submap_id};
     for (int i = range.begin; i < range.end; ++i) {
       if (keyframes_[i]->points.empty()) continue;
       const double distance = (poses_[i].translation() - poses_[id].translation()).norm();
@@ -193,7 +194,7 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
   if (distance > options_.max_distance + half) return std::nullopt;
   Submap& submap = GetSubmap(submap_id);
   const Pose2& submap_from_near =
-      submap.submap_from_keyframes()[near_id - submaps_[submap_id].begin];
+      submap.submap_from_keyframes()[near_id - submaps_.at(submap_id).begin];
   const Pose2 expected = submap_from_near * (poses_[near_id].Inverse() * poses_[id]);
   const bool track = half < options_.track_window;
   const std::optional<LoopMatch> match =
@@ -221,7 +222,7 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
 void LoopCloser::Optimize(const std::vector<GraphConstraint>& closures) {
   constexpr double kSurprise = 3.0;  // standard deviations
   constexpr int kMaxClosures = 30;
-  constexpr int kMaxShare = 20;  // one in so many, so that the time does not grow with its square
+  constexpr int kMaxShare = 10;  // one in so many, so that the time does not grow with its square
   constexpr int kRecent = 40;
   const bool surprise = std::any_of(closures.begin(), closures.end(),
                                     [&](const auto& c) { return Contradicted(c, kSurprise); });
@@ -230,11 +231,11 @@ void LoopCloser::Optimize(const std::vector<GraphConstraint>& closures) {
                                    std::max(kMaxClosures, this->closures() / kMaxShare);
   if (all) closures_since_optimization_ = 0;
   const int count = static_cast<int>(poses_.size());
-  poses_ =
-      OptimizeGraph(poses_, constraints_, all ? 1 : std::max(1, count - kRecent), options_.graph);
-  if (all && TakeBack()) poses_ = OptimizeGraph(poses_, constraints_, 1, options_.graph);
-  MoveAnchored();
-  if (all) LeaveOutKnown();
+  OptimizeGraph(constraints_, all ? 1 : std::max(1, count - kRecent), options_.graph, &poses_);
+  if (!all) return;
+  if (TakeBack()) OptimizeGraph(constraints_, 1, options_.graph, &poses_);
+  for (const auto& [id, pose] : anchors_) poses_[id] = MapFromBase(pose, poses_);
+  LeaveOutKnown();
 }
 
 bool LoopCloser::Contradicted(const GraphConstraint& constraint, double deviation) const {
@@ -252,7 +253,8 @@ bool LoopCloser::TakeBack() {
   return true;
 }
 
-/// Lets go what keyframes saw of known places, as soon as no query asks for it.
+/// Lets go what keyframes saw of known places, as soon as no query asks for it, and the submaps of
+/// which nothing is left.
 void LoopCloser::ReleaseKnown() {
   const KnownPlaces places(keyframes_, constraints_, links_, anchors_, options_.known_places);
   const double way = keyframes_.back()->way - options_.query_way;
@@ -263,6 +265,14 @@ void LoopCloser::ReleaseKnown() {
     released->points = std::vector<KeptPoint>();
     released->edges = std::vector<ModelEdge>();
     keyframe = std::move(released);
+  }
+  for (auto submap = submaps_.begin(); submap != submaps_.end();) {
+    const Range range = submap->second;
+    const bool is_left =
+        range.end > next_to_release_ ||
+        std::any_of(keyframes_.begin() + range.begin, keyframes_.begin() + range.end,
+                    [](const auto& keyframe) { return !keyframe->points.empty(); });
+    submap = is_left ? std::next(submap) : submaps_.erase(submap);
   }
 }
 
@@ -276,10 +286,6 @@ void LoopCloser::LeaveOutKnown() {
     anchors_[id] = {anchor, poses_[anchor].Inverse() * poses_[id]};
   }
   if (anchors_.size() > before) JoinOnly(Without(anchors_, constraints_));
-}
-
-void LoopCloser::MoveAnchored() {
-  for (const auto& [id, pose] : anchors_) poses_[id] = MapFromBase(pose, poses_);
 }
 
 }  // namespace scan_image_slam

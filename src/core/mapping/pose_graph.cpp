@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -84,29 +85,23 @@ double SquaredResidual(const GraphConstraint& constraint, const std::vector<Pose
   return d.dot(constraint.information * d);
 }
 
-std::vector<Pose2> OptimizeGraph(std::vector<Pose2> nodes,
-                                 const std::vector<GraphConstraint>& constraints, int first_free,
-                                 const GraphOptions& options) {
+void OptimizeGraph(const std::vector<GraphConstraint>& constraints, int first_free,
+                   const GraphOptions& options, std::vector<Pose2>* nodes) {
   first_free = std::max(1, first_free);
-  std::vector<Eigen::Vector3d> values;
-  values.reserve(nodes.size());
-  for (const Pose2& node : nodes) values.push_back(node.coordinates());
-
+  std::map<int, Eigen::Vector3d> values;  // of the nodes that take part
+  const auto value = [&](int node) {
+    return values.try_emplace(node, (*nodes)[node].coordinates()).first->second.data();
+  };
   ceres::Problem problem;
-  std::vector<bool> used(nodes.size(), false);
   for (const GraphConstraint& constraint : constraints) {
     if (std::max(constraint.from, constraint.to) < first_free) continue;
     ceres::LossFunction* loss =
         constraint.closes_loop ? new ceres::CauchyLoss(options.kernel) : nullptr;
-    problem.AddResidualBlock(new ConstraintCost(constraint), loss, values[constraint.from].data(),
-                             values[constraint.to].data());
-    used[constraint.from] = true;
-    used[constraint.to] = true;
+    problem.AddResidualBlock(new ConstraintCost(constraint), loss, value(constraint.from),
+                             value(constraint.to));
   }
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (used[i] && static_cast<int>(i) < first_free) {
-      problem.SetParameterBlockConstant(values[i].data());
-    }
+  for (auto& [node, pose] : values) {
+    if (node < first_free) problem.SetParameterBlockConstant(pose.data());
   }
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -116,10 +111,9 @@ std::vector<Pose2> OptimizeGraph(std::vector<Pose2> nodes,
   solver.function_tolerance = 1e-5;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (used[i]) nodes[i] = {values[i].x(), values[i].y(), NormalizeAngle(values[i].z())};
+  for (const auto& [node, pose] : values) {
+    (*nodes)[node] = {pose.x(), pose.y(), NormalizeAngle(pose.z())};
   }
-  return nodes;
 }
 
 }  // namespace scan_image_slam

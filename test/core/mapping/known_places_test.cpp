@@ -91,15 +91,6 @@ TEST_F(FourVisits, NeighboursHoldTheGraphTogether) {
   EXPECT_TRUE(Places().IsNeedless(10));
 }
 
-TEST_F(FourVisits, ACorridorTiesNothingAlongIt) {
-  options_.max_visits = 2;
-  Closure(9).information = Eigen::Vector3d(1.0, 400.0, 400.0).asDiagonal();
-  EXPECT_FALSE(Places().IsNeedless(10));
-  Closure(9).information = Eigen::Vector3d(0.0, 400.0, 400.0).asDiagonal();
-  EXPECT_FALSE(Places().IsNeedless(10));
-  EXPECT_EQ(Places().AnchorOf(9), 0);  // what was seen was known
-}
-
 TEST_F(FourVisits, TheWayPastWhatIsLeftOutIsKept) {
   anchors_[4] = {};
   anchors_[5] = {};

@@ -44,7 +44,8 @@ TEST(OptimizeGraph, FindsThePosesThatTheConstraintsAgreeOn) {
   }
   GraphOptions options;
   options.max_iterations = 100;
-  const std::vector<Pose2> found = OptimizeGraph(start, constraints, 1, options);
+  std::vector<Pose2> found = start;
+  OptimizeGraph(constraints, 1, options, &found);
   for (std::size_t i = 0; i < truth.size(); ++i) ExpectNear(found[i], truth[i], 1e-3);
 }
 
@@ -55,7 +56,8 @@ TEST(OptimizeGraph, SharesAnErrorByTheWeights) {
   std::vector<GraphConstraint> constraints = {Between(nodes, 0, 1), Between(nodes, 1, 2),
                                               Between(nodes, 0, 2)};
   constraints[2].from_from_to.x = 2.3;
-  const std::vector<Pose2> found = OptimizeGraph(nodes, constraints, 1, GraphOptions());
+  std::vector<Pose2> found = nodes;
+  OptimizeGraph(constraints, 1, GraphOptions(), &found);
   EXPECT_NEAR(found[1].x, 1.1, kTenthOfAMillimetre);
   EXPECT_NEAR(found[2].x, 2.2, kTenthOfAMillimetre);
 }
@@ -65,7 +67,8 @@ TEST(OptimizeGraph, ADirectionWithoutInformationIsLeftToTheOthers) {
   std::vector<GraphConstraint> constraints = {Between(nodes, 0, 1), Between(nodes, 0, 1)};
   constraints[1].from_from_to = {7.0, 0.4, 0.0};  // says nothing along x
   constraints[1].information = Eigen::Vector3d(0.0, 1.0, 1.0).asDiagonal();
-  const std::vector<Pose2> found = OptimizeGraph(nodes, constraints, 1, GraphOptions());
+  std::vector<Pose2> found = nodes;
+  OptimizeGraph(constraints, 1, GraphOptions(), &found);
   EXPECT_NEAR(found[1].x, 1.0, 1e-3);
   EXPECT_NEAR(found[1].y, 0.2, 1e-3);
 }
@@ -75,7 +78,8 @@ TEST(OptimizeGraph, NodesBeforeTheFirstFreeOneStay) {
   std::vector<GraphConstraint> constraints = {Between(nodes, 0, 1), Between(nodes, 1, 2),
                                               Between(nodes, 2, 3), Between(nodes, 0, 3)};
   constraints[3].from_from_to.x = 3.6;
-  const std::vector<Pose2> found = OptimizeGraph(nodes, constraints, 2, GraphOptions());
+  std::vector<Pose2> found = nodes;
+  OptimizeGraph(constraints, 2, GraphOptions(), &found);
   EXPECT_EQ(found[1].x, 1.0);
   EXPECT_NEAR(found[2].x, 2.2, kTenthOfAMillimetre);
   EXPECT_NEAR(found[3].x, 3.4, kTenthOfAMillimetre);
@@ -94,7 +98,8 @@ TEST(OptimizeGraph, AWrongPlaceAmongManyRightOnesIsOverruled) {
   wrong.from_from_to.y = 3.0;
   wrong.closes_loop = true;
   constraints.push_back(wrong);
-  const std::vector<Pose2> found = OptimizeGraph(nodes, constraints, 1, GraphOptions());
+  std::vector<Pose2> found = nodes;
+  OptimizeGraph(constraints, 1, GraphOptions(), &found);
   EXPECT_NEAR(found[9].y, 0.0, 0.02);
   EXPECT_GT(SquaredResidual(wrong, found), 1e4 * 2.9 * 2.9);
 }

@@ -3,6 +3,7 @@
 #include "scan_image_slam/core/mapping/pose_graph.h"
 
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -26,7 +27,7 @@ class GraphWays {
   GraphWays(const GraphLinks& links, int from, const std::vector<int>& targets);
 
   /// Length of the way to a target [m]; infinite if there is none.
-  double Length(int to) const { return steps_[to].length; }
+  double Length(int to) const { return At(to).length; }
 
   /// Covariance of the pose of `from` in the frame of the target `to` that the constraints along
   /// the way add up to: (forward, left, turn) of `from` [m, m, rad].
@@ -39,7 +40,9 @@ class GraphWays {
     int before = -1;
     int constraint = -1;
   };
-  std::vector<Step> steps_;
+  Step At(int node) const;
+
+  std::unordered_map<int, Step> steps_;  ///< to the nodes that were reached
 };
 
 }  // namespace scan_image_slam

@@ -16,7 +16,6 @@ struct KnownPlaceOptions {
   double max_distance = 0.5;  ///< from a keyframe to the one that knows its place [m]
   double max_angle = 0.5;     ///< [rad]
   double min_overlap = 0.9;   ///< share of what it saw that was known there [-]
-  double max_stddev = 0.1;    ///< of where it was recognised to be, in any direction [m]
   int max_visits = 3;         ///< of one place that the graph is the better for
 };
 
@@ -37,13 +36,13 @@ class KnownPlaces {
   std::optional<int> AnchorOf(int id) const;
 
   /// True if the graph can do without a keyframe whose points were let go: its place was visited
-  /// often enough, and the keyframes before and after it are tied to known places in every
-  /// direction (a corridor ties nothing along it), so that no part of the graph comes loose.
+  /// often enough, and the keyframes before and after it are known, too, so that what comes before
+  /// and after such a stretch stays tied to the map.
   bool IsNeedless(int id) const;
 
  private:
   bool Shows(const GraphConstraint& constraint, int id) const;
-  bool IsTied(int id) const;
+  bool IsKnown(int id) const { return anchors_.count(id) > 0 || AnchorOf(id); }
 
   const std::vector<std::shared_ptr<const Keyframe>>& keyframes_;
   const std::vector<GraphConstraint>& constraints_;

@@ -83,7 +83,6 @@ class LoopCloser {
   bool TakeBack();
   void ReleaseKnown();
   void LeaveOutKnown();
-  void MoveAnchored();
 
   LoopCloserOptions options_;
   std::vector<std::shared_ptr<const Keyframe>> keyframes_;
@@ -92,7 +91,7 @@ class LoopCloser {
   GraphLinks links_;
   std::map<int, AttachedPose> anchors_;  ///< keyframes that the graph does without
   int closures_ = 0;
-  std::vector<Range> submaps_;
+  std::map<int, Range> submaps_;  ///< by number, in the order of time
   struct CachedSubmap {
     std::unique_ptr<Submap> submap;
     int used = 0;

@@ -30,10 +30,9 @@ struct GraphOptions {
   double kernel = 3.0;  ///< a robust residual of so many standard deviations counts half [-]
 };
 
-/// Poses that fit the constraints best (least squares, by Ceres), from `nodes` on. Nodes before
-/// `first_free` stay where they are; at least the first one does.
-std::vector<Pose2> OptimizeGraph(std::vector<Pose2> nodes,
-                                 const std::vector<GraphConstraint>& constraints, int first_free,
-                                 const GraphOptions& options);
+/// Moves nodes to the poses that fit the constraints best (least squares, by Ceres). Nodes before
+/// `first_free` stay where they are; at least the first one does, and those without a constraint.
+void OptimizeGraph(const std::vector<GraphConstraint>& constraints, int first_free,
+                   const GraphOptions& options, std::vector<Pose2>* nodes);
 
 }  // namespace scan_image_slam
