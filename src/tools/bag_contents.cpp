@@ -1,6 +1,7 @@
 #include "bag_contents.h"
 
 #include "scan_image_slam/ros/bag_input.h"
+#include "scan_image_slam/ros/bag_message.h"
 #include "scan_image_slam/ros/image_conversion.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 
@@ -55,7 +56,7 @@ class ContentsReader {
  private:
   template <typename Message>
   void Read(const rosbag::MessageInstance& instance, RecordedTopic* topic) {
-    const auto message = instance.instantiate<Message>();
+    const auto message = ReadMessage<Message>(instance);
     if (message == nullptr) {
       throw std::invalid_argument("recorded with another definition of " + topic->type);
     }
@@ -122,7 +123,7 @@ class ContentsReader {
     const std::vector<std::string>& names = TransformTopics();
     if (std::find(names.begin(), names.end(), WithSlash(instance.getTopic())) == names.end())
       return;
-    const auto message = instance.instantiate<tf2_msgs::TFMessage>();
+    const auto message = ReadMessage<tf2_msgs::TFMessage>(instance);
     if (message != nullptr) contents_.transforms.Add(*message, instance.getTime());
   }
 
