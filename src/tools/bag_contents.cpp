@@ -92,9 +92,8 @@ class ContentsReader {
       topic->images.AddUnreadable("depths (" + image.encoding + "), no picture");
       return;
     }
-    KeepPicture([&] { return ToGrey(image); }, image.encoding, topic);
-    const bool grey = image.encoding == "mono8" || image.encoding == "8UC1";
-    if (!grey || image.data.size() < static_cast<std::size_t>(image.step) * image.height) return;
+    if (!KeepPicture([&] { return ToGrey(image); }, image.encoding, topic)) return;
+    if (image.encoding != "mono8" && image.encoding != "8UC1") return;
     const cv::Mat view(static_cast<int>(image.height), static_cast<int>(image.width), CV_8U,
                        const_cast<std::uint8_t*>(image.data.data()), image.step);
     if (LooksLikeBayer(view)) topic->images.AddBayer();
@@ -109,13 +108,16 @@ class ContentsReader {
     KeepPicture([&] { return ToGrey(image); }, image.format, topic);
   }
 
-  static void KeepPicture(const std::function<cv::Mat()>& decode, const std::string& encoding,
+  /// True if it can be decoded.
+  static bool KeepPicture(const std::function<cv::Mat()>& decode, const std::string& encoding,
                           RecordedTopic* topic) {
     try {
       const cv::Mat grey = decode();
       topic->images.Add(grey.cols, grey.rows, encoding, cv::mean(grey)[0]);
+      return true;
     } catch (const std::invalid_argument& error) {
       topic->images.AddUnreadable(error.what());
+      return false;
     }
   }
 
