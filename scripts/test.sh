@@ -23,6 +23,7 @@ export SETUP_OPTIONS=--test
 export SCAN_IMAGE_SLAM_DATA=${SCAN_IMAGE_SLAM_DATA:-$repository/../shared/data}
 build=$repository/build_test
 sanitized=$repository/build_sanitize
+threaded=$repository/build_threads
 fuzzed=$repository/build_fuzz
 logs=$build/logs
 mkdir -p "$logs"
@@ -68,15 +69,19 @@ run_live() {
 
 # Warnings are the business of the other build: sanitizers make the compiler see ghosts.
 run_sanitize() {
+  local flags=(-DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1")
   BUILD_TARGETS="all tests" "$here/build.sh" "$sanitized" \
-    -DSCAN_IMAGE_SLAM_SANITIZE=address,undefined -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1"
+    -DSCAN_IMAGE_SLAM_SANITIZE=address,undefined "${flags[@]}"
   # Libraries of ROS leak what lives as long as the program.
   export ASAN_OPTIONS=detect_leaks=0:detect_stack_use_after_return=1
   run_ctest "$sanitized" -j "$jobs" -R '_gtest_'
   local tools=$sanitized/devel/lib/scan_image_slam
   "$build/devel/lib/scan_image_slam/simulate" --world laboratory --out "$logs/run.bag" --duration 3
   "$tools/slam_offline" --bag "$logs/run.bag" --out "$logs/run"
+  # What shares its data with another thread; of ROS only the nodes do (docs/architecture.md).
+  BUILD_TARGETS=core_mapping_test "$here/build.sh" "$threaded" -DSCAN_IMAGE_SLAM_SANITIZE=thread \
+    "${flags[@]}"
+  "$threaded/devel/lib/scan_image_slam/core_mapping_test" --gtest_filter='BackEndThread.*'
 }
 
 # A few seconds each; what they find is kept in $fuzzed, and belongs into test/fuzz/corpus.

@@ -1,5 +1,7 @@
 #include "scan_image_slam/ros/bag_input.h"
 
+#include "scan_image_slam/ros/bag_check.h"
+#include "scan_image_slam/ros/bag_message.h"
 #include "scan_image_slam/ros/image_conversion.h"
 #include "scan_image_slam/ros/recorded_transforms.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
@@ -34,11 +36,12 @@ void OpenBag(const std::string& path, rosbag::Bag* bag) {
   const auto size = static_cast<long long>(file.tellg());
   if (size == 0) throw BagError(path + ": the file is empty");
   try {
+    CheckBag(path);
     bag->open(path, rosbag::bagmode::Read);
   } catch (const rosbag::BagUnindexedException&) {
     throw BagError(path + ": the bag has no index; it ends at byte " + std::to_string(size) +
                    " as if the recording had been cut off (rosbag reindex mends that)");
-  } catch (const rosbag::BagException& error) {
+  } catch (const std::runtime_error& error) {
     throw BagError(path + ": not a readable bag (" + std::to_string(size) +
                    " bytes): " + error.what());
   }
@@ -77,6 +80,8 @@ BagInput::BagInput(const std::string& path, const BagTopics& topics, const SlamO
     ChooseBaseFrame();
     CheckFrames();
   } catch (const rosbag::BagException& error) {
+    throw BagError(path + ": damaged: " + error.what());
+  } catch (const std::invalid_argument& error) {
     throw BagError(path + ": damaged: " + error.what());
   }
 }
@@ -149,7 +154,7 @@ void BagInput::ReadTransforms() {
   RecordedTransforms transforms;
   rosbag::View view(bag_, WithOrWithoutSlash(TransformTopics()));
   for (const rosbag::MessageInstance& instance : view) {
-    const auto message = instance.instantiate<tf2_msgs::TFMessage>();
+    const auto message = ReadMessage<tf2_msgs::TFMessage>(instance);
     if (message != nullptr) transforms.Add(*message, instance.getTime());
   }
   mounts_ = transforms.MakeBuffer();
@@ -158,13 +163,13 @@ void BagInput::ReadTransforms() {
 std::string BagInput::FirstFrame(const std::string& topic) const {
   rosbag::View view(bag_, WithOrWithoutSlash({topic}));
   for (const rosbag::MessageInstance& instance : view) {
-    if (const auto scan = instance.instantiate<sensor_msgs::LaserScan>()) {
+    if (const auto scan = ReadMessage<sensor_msgs::LaserScan>(instance)) {
       return StripSlash(scan->header.frame_id);
     }
-    if (const auto info = instance.instantiate<sensor_msgs::CameraInfo>()) {
+    if (const auto info = ReadMessage<sensor_msgs::CameraInfo>(instance)) {
       return StripSlash(info->header.frame_id);
     }
-    if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) {
+    if (const auto odometry = ReadMessage<nav_msgs::Odometry>(instance)) {
       return StripSlash(odometry->child_frame_id);
     }
     throw BagError(path_ + ": topic " + topic + " was recorded with another definition of " +
@@ -264,20 +269,20 @@ void BagInput::Play(SlamPipeline* pipeline, const SlamPipeline::RunStage& run,
 }
 
 void BagInput::PlayScan(const rosbag::MessageInstance& message, SlamPipeline* pipeline) {
-  const auto scan = message.instantiate<sensor_msgs::LaserScan>();
+  const auto scan = ReadMessage<sensor_msgs::LaserScan>(message);
   if (scan == nullptr) return;
   pipeline->AddScan(ToLaserScan(*scan), static_cast<Stamp>(message.getTime().toNSec()));
 }
 
 void BagInput::PlayOdometry(const rosbag::MessageInstance& message, SlamPipeline* pipeline) {
-  const auto odometry = message.instantiate<nav_msgs::Odometry>();
+  const auto odometry = ReadMessage<nav_msgs::Odometry>(message);
   if (odometry == nullptr) return;
   pipeline->AddOdometry(ToStamp(odometry->header.stamp), ToPose2(odometry->pose.pose),
                         static_cast<Stamp>(message.getTime().toNSec()));
 }
 
 void BagInput::PlayTransforms(const rosbag::MessageInstance& message, SlamPipeline* pipeline) {
-  const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
+  const auto transforms = ReadMessage<tf2_msgs::TFMessage>(message);
   if (transforms == nullptr) return;
   const std::string odom_frame = StripSlash(options_.fusion_node.odometry.odom_frame);
   for (const geometry_msgs::TransformStamped& transform : transforms->transforms) {
@@ -294,7 +299,7 @@ void BagInput::PlayTransforms(const rosbag::MessageInstance& message, SlamPipeli
 
 void BagInput::PlayCameraInfo(const rosbag::MessageInstance& message, SlamPipeline* pipeline) {
   if (camera_set_) return;
-  const auto info = message.instantiate<sensor_msgs::CameraInfo>();
+  const auto info = ReadMessage<sensor_msgs::CameraInfo>(message);
   if (info == nullptr) return;
   pipeline->fusion().SetCamera(ToCameraIntrinsics(*info), *base_from_camera_);
   camera_set_ = true;
@@ -304,9 +309,9 @@ void BagInput::PlayImage(const rosbag::MessageInstance& message, SlamPipeline* p
                          const SlamPipeline::RunStage& run) {
   CameraImage image;
   run(Stage::kFusion, [&] {
-    if (const auto raw = message.instantiate<sensor_msgs::Image>()) {
+    if (const auto raw = ReadMessage<sensor_msgs::Image>(message)) {
       image = {ToStamp(raw->header.stamp), ToGrey(*raw), ToStdPointer(raw)};
-    } else if (const auto compressed = message.instantiate<sensor_msgs::CompressedImage>()) {
+    } else if (const auto compressed = ReadMessage<sensor_msgs::CompressedImage>(message)) {
       image = {ToStamp(compressed->header.stamp), ToGrey(*compressed), nullptr};
     }
   });

@@ -1,5 +1,7 @@
 #include "scan_image_slam/ros/image_conversion.h"
 
+#include "scan_image_slam/ros/picture_size.h"
+
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -12,14 +14,17 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr std::uint32_t kMaxSide = 16384;  // [px]
+constexpr std::uint64_t kMaxPixels = 1 << 26;
+
+void CheckSize(std::uint64_t width, std::uint64_t height) {
+  if (width == 0 || height == 0 || width > kMaxPixels || height > kMaxPixels / width) {
+    throw std::invalid_argument("image size " + std::to_string(width) + " x " +
+                                std::to_string(height));
+  }
+}
 
 void CheckLayout(const sensor_msgs::Image& message) {
-  if (message.width == 0 || message.height == 0 || message.width > kMaxSide ||
-      message.height > kMaxSide) {
-    throw std::invalid_argument("image size " + std::to_string(message.width) + " x " +
-                                std::to_string(message.height));
-  }
+  CheckSize(message.width, message.height);
   const std::size_t bits =
       static_cast<std::size_t>(sensor_msgs::image_encodings::bitDepth(message.encoding)) *
       static_cast<std::size_t>(sensor_msgs::image_encodings::numChannels(message.encoding));
@@ -64,6 +69,11 @@ cv::Mat ToGrey(const sensor_msgs::Image& message) {
 
 cv::Mat ToGrey(const sensor_msgs::CompressedImage& message) {
   if (message.data.empty()) throw std::invalid_argument("the compressed image is empty");
+  const cv::Size size = DeclaredSize(message.data);
+  if (size.empty()) {
+    throw std::invalid_argument("format '" + message.format + "': the data is no JPEG or PNG");
+  }
+  CheckSize(static_cast<std::uint64_t>(size.width), static_cast<std::uint64_t>(size.height));
   cv::Mat grey;
   try {
     grey = cv::imdecode(message.data, cv::IMREAD_GRAYSCALE);

@@ -1,6 +1,7 @@
 #include "bag_contents.h"
 
 #include "scan_image_slam/ros/bag_input.h"
+#include "scan_image_slam/ros/bag_message.h"
 #include "scan_image_slam/ros/image_conversion.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 
@@ -55,7 +56,7 @@ class ContentsReader {
  private:
   template <typename Message>
   void Read(const rosbag::MessageInstance& instance, RecordedTopic* topic) {
-    const auto message = instance.instantiate<Message>();
+    const auto message = ReadMessage<Message>(instance);
     if (message == nullptr) {
       throw std::invalid_argument("recorded with another definition of " + topic->type);
     }
@@ -91,9 +92,8 @@ class ContentsReader {
       topic->images.AddUnreadable("depths (" + image.encoding + "), no picture");
       return;
     }
-    KeepPicture([&] { return ToGrey(image); }, image.encoding, topic);
-    const bool grey = image.encoding == "mono8" || image.encoding == "8UC1";
-    if (!grey || image.data.size() < static_cast<std::size_t>(image.step) * image.height) return;
+    if (!KeepPicture([&] { return ToGrey(image); }, image.encoding, topic)) return;
+    if (image.encoding != "mono8" && image.encoding != "8UC1") return;
     const cv::Mat view(static_cast<int>(image.height), static_cast<int>(image.width), CV_8U,
                        const_cast<std::uint8_t*>(image.data.data()), image.step);
     if (LooksLikeBayer(view)) topic->images.AddBayer();
@@ -108,13 +108,16 @@ class ContentsReader {
     KeepPicture([&] { return ToGrey(image); }, image.format, topic);
   }
 
-  static void KeepPicture(const std::function<cv::Mat()>& decode, const std::string& encoding,
+  /// True if it can be decoded.
+  static bool KeepPicture(const std::function<cv::Mat()>& decode, const std::string& encoding,
                           RecordedTopic* topic) {
     try {
       const cv::Mat grey = decode();
       topic->images.Add(grey.cols, grey.rows, encoding, cv::mean(grey)[0]);
+      return true;
     } catch (const std::invalid_argument& error) {
       topic->images.AddUnreadable(error.what());
+      return false;
     }
   }
 
@@ -122,7 +125,7 @@ class ContentsReader {
     const std::vector<std::string>& names = TransformTopics();
     if (std::find(names.begin(), names.end(), WithSlash(instance.getTopic())) == names.end())
       return;
-    const auto message = instance.instantiate<tf2_msgs::TFMessage>();
+    const auto message = ReadMessage<tf2_msgs::TFMessage>(instance);
     if (message != nullptr) contents_.transforms.Add(*message, instance.getTime());
   }
 

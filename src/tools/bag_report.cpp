@@ -195,8 +195,9 @@ std::vector<std::string> TopicsToCheck(const BagContents& contents, const BagPla
 
 std::string DescribeContents(const BagContents& contents, const BagPlan& plan) {
   std::ostringstream text;
-  text << contents.path << ": " << DurationText((contents.end - contents.begin).toSec()) << ", "
-       << NumberText(contents.megabytes, 1) << " MB, from " << DateText(contents.begin) << "\n";
+  text << contents.path << ": " << DurationText(contents.end.toSec() - contents.begin.toSec())
+       << ", " << NumberText(contents.megabytes, 1) << " MB, from " << DateText(contents.begin)
+       << "\n";
   const auto describe = [&](const char* head, const std::string& name, const std::string& more) {
     if (name.empty()) {
       text << Paragraph(head, "none");

@@ -8,6 +8,8 @@ import xml.etree.ElementTree
 
 import rosbag
 import rospy
+import sensor_msgs.msg
+import std_msgs.msg
 
 from tools import FOLDER, ToolTest, copy_bag, read, read_tum, run, simulate
 
@@ -275,6 +277,25 @@ class CheckBag(ToolTest):
         _, launch = self.check(self.path("two.bag"), options="--scan-topic /rear/scan")
         self.assertEqual(launch["scan_topic"], "/rear/scan")
         self.expect(run("check_bag", self.bag, "--scan-topic", "/none"), 2, "/none")
+
+    def test_raw_images_whose_rows_are_too_short(self):
+        """They are neither read beyond their end nor looked at for the pattern of a mosaic."""
+        with rosbag.Bag(self.bag) as bag, rosbag.Bag(self.path("short.bag"), "w") as copy:
+            for topic, message, time in bag.read_messages():
+                if message._type == "sensor_msgs/CompressedImage":
+                    topic = "/image_raw"
+                    message = sensor_msgs.msg.Image(header=message.header, width=640, height=480,
+                                                    encoding="mono8", step=1, data=bytes(640 * 480))
+                copy.write(topic, message, time)
+        self.expect(run("check_bag", self.path("short.bag")), 0, "/image_raw",
+                    "shorter than its size and encoding 'mono8' say")
+
+    def test_longer_than_a_duration_of_ros(self):
+        """68 years, as where the clock was set while it was recorded."""
+        bag = copy_bag(self.bag, self.path("long.bag"))
+        with rosbag.Bag(bag, "a") as long:
+            long.write("/note", std_msgs.msg.String(), rospy.Time(4000000000))
+        self.expect(run("check_bag", bag), 0, "long.bag: ", "/scan")
 
     def test_recordings(self):
         folder = os.environ.get("SCAN_IMAGE_SLAM_DATA", "")

@@ -15,6 +15,9 @@ namespace {
 /// Steeper rays say nothing of bearings.
 constexpr double kMaxSlope = 3.0;
 
+/// Many times what a large camera has; without a bound a wrong calibration would take all memory.
+constexpr double kMaxCells = 1 << 24;
+
 struct Extent {
   double heading = 0.0;  ///< of the optical axis, or of what is up for a camera that looks down
   double min_bearing = 0.0;
@@ -100,8 +103,13 @@ BearingImage::BearingImage(const CameraModel& camera, const Eigen::Isometry3d& b
   step_ = 1.0 / std::max(camera.intrinsics().k(0, 0), camera.intrinsics().k(1, 1));
   max_bearing_ = extent.heading + extent.max_bearing;
   max_slope_ = extent.max_slope;
-  const int columns = 1 + static_cast<int>((extent.max_bearing - extent.min_bearing) / step_);
-  const int rows = 1 + static_cast<int>((extent.max_slope - extent.min_slope) / row_step());
+  const double width = 1.0 + (extent.max_bearing - extent.min_bearing) / step_;
+  const double height = 1.0 + (extent.max_slope - extent.min_slope) / row_step();
+  if (!(width * height <= kMaxCells)) {
+    throw std::invalid_argument("K[0] and K[4] do not fit each other or the size of the picture");
+  }
+  const auto columns = static_cast<int>(width);
+  const auto rows = static_cast<int>(height);
 
   map_.create(rows, columns, CV_32FC2);
   const Eigen::Matrix3d camera_from_base = base_from_camera.linear().transpose();

@@ -184,6 +184,19 @@ TEST(BearingImage, ACameraThatLooksStraightDownOrUpIsRefused) {
   EXPECT_NO_THROW(ImageOf({{0, 0, 1}, 0, 60.0 * kDegree, 0}));
 }
 
+TEST(BearingImage, FocalLengthsThatMakeNoPictureAreRefused) {
+  // One of them tells how fine the picture is, the other one how far it goes.
+  for (const double focal : {1e7, 1e30}) {
+    for (const int axis : {0, 1}) {
+      CameraIntrinsics intrinsics = PinholeCamera();
+      intrinsics.k(axis, axis) = focal;
+      EXPECT_THROW(ImageOf({{0, 0, 1}, 0, 0, 0}, intrinsics), std::invalid_argument);
+    }
+  }
+  CameraIntrinsics large = PinholeCamera(4096, 3072, 3000.0);
+  EXPECT_NO_THROW(ImageOf({{0, 0, 1}, 0, 0, 0}, large));
+}
+
 TEST(BearingImage, ACameraThatSeesSteepRaysOnlyIsRefused) {
   EXPECT_THROW(ImageOf({{0, 0, 1}, 0, 72.4 * kDegree, 0}, PinholeCamera(320, 240, 20000.0)),
                std::invalid_argument);

@@ -1,9 +1,14 @@
 #include "scan_image_slam/core/mapping/back_end_thread.h"
 
 #include "loop_fixtures.h"
+#include "scan_image_slam/core/mapping/atomic_file.h"
+#include "scan_image_slam/core/mapping/state_file.h"
+#include "support_folder.h"
 
 #include <chrono>
 #include <cstring>
+#include <future>
+#include <stdexcept>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -45,6 +50,26 @@ TEST(BackEndThread, ANewMapDropsWhatWasFoundInTheOld) {
   }
   EXPECT_EQ(thread.waiting(), 0);
   EXPECT_FALSE(thread.Take().graph.has_value());
+}
+
+TEST(BackEndThread, SavesTheGraphOfWhatCameBefore) {
+  const DriftingDrive drive = Drive(RingOfCorridors(), TwiceAroundTheRing(), {1.005, 0.0005});
+  LoopCloser closer{LoopCloserOptions()};
+  BackEndThread thread{LoopCloserOptions()};
+  for (const auto& keyframe : drive.keyframes) {
+    closer.Add(keyframe);
+    thread.Add(keyframe);
+  }
+  const TemporaryFolder folder;
+  std::future<void> written = thread.Save(MapState(), folder.File("a.state"));
+  thread.Add(drive.keyframes.front());  // another map, of which the file knows nothing
+  written.get();
+  MapState expected;
+  expected.graph = closer.memory();
+  EXPECT_GT(expected.graph.keyframes.size(), 0U);
+  EXPECT_EQ(ReadWholeFile(folder.File("a.state")), EncodeState(expected));
+
+  EXPECT_THROW(thread.Save(MapState(), folder.File("a.state/b.state")).get(), std::runtime_error);
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ namespace scan_image_slam {
 class BearingImage {
  public:
   /// `base_from_camera` takes points of the optical frame to the base frame. Throws
-  /// std::invalid_argument if the camera looks up or down so steeply that it sees no horizon.
+  /// std::invalid_argument if the camera looks up or down so steeply that it sees no horizon, or if
+  /// its focal lengths are far from any that its picture can have.
   BearingImage(const CameraModel& camera, const Eigen::Isometry3d& base_from_camera);
 
   int columns() const { return map_.cols; }
