@@ -71,6 +71,16 @@ TEST(MapPicture, GrowsToHoldPathsThatLeaveTheMap) {
   EXPECT_EQ(At(picture, 655, 205), kGrey);  // outside of the map
 }
 
+TEST(MapPicture, CutsPathsThatGoFarAway) {
+  // The map is 40 m wide: 20 m around it count.
+  DrawnPath path{"way", kRed, {{-25.0, 40.0, 0.0}, {40.0, -15.0, 0.0}, {5000.0, -15.0, 0.0}}};
+  const cv::Mat picture = DrawMap(Hall(), {path}, 670);
+  EXPECT_EQ(picture.cols, 670);
+  EXPECT_EQ(picture.rows, 570);
+  EXPECT_EQ(At(picture, 10, 10), kRedPixel);
+  EXPECT_EQ(At(picture, 669, 560), kRedPixel);
+}
+
 TEST(MapPicture, HasAScaleBarOfARoundLength) {
   // A fifth of 40 m is 8 m, and 5 m is the next round length: 100 pixels from x = 20.
   const cv::Mat picture = DrawMap(Hall(), {}, 800);

@@ -189,30 +189,6 @@ TEST(RobotSimulation, DrivenByHandItStopsBeforeTheWall) {
   EXPECT_NEAR(simulation.truth().speed, 0.0, 1e-9);
 }
 
-TEST(RobotSimulation, SeveralRoundsGoOnFromTheEndOfThePath) {
-  Scenario scenario = PlainScenario();
-  RobotPath& path = scenario.paths.front();
-  path.way_points = {path.start.translation() + Eigen::Vector2d(1.0, 0.0),
-                     path.start.translation()};
-  SimulationOptions options;
-  options.images = false;
-  const auto driven = [&] {
-    RobotSimulation simulation(scenario, options);
-    double metres = 0.0;
-    Pose2 last = simulation.truth().world_from_base;
-    while (const std::optional<SensorEvent> event = simulation.Next()) {
-      const auto* truth = std::get_if<GroundTruth>(&event->data);
-      if (truth == nullptr) continue;
-      metres += (truth->world_from_base.translation() - last.translation()).norm();
-      last = truth->world_from_base;
-    }
-    return metres;
-  };
-  EXPECT_NEAR(driven(), 2.0, 0.02);
-  options.rounds = 3;
-  EXPECT_NEAR(driven(), 6.0, 0.06);
-}
-
 TEST(RobotSimulation, AnUnknownPathIsRefusedByName) {
   SimulationOptions options;
   options.path = "nowhere";

@@ -33,13 +33,14 @@ struct Drive {
   double speed = 0.0;
 };
 
-Drive DriveThrough(const Scenario& scenario, const std::string& path) {
+Drive DriveThrough(const Scenario& scenario, const std::string& path, int rounds = 1) {
   // Scans are not looked at: few are enough.
   Scenario quick = scenario;
   quick.laser.beams = 2;
   SimulationOptions options;
   options.images = false;
   options.path = path;
+  options.rounds = rounds;
   RobotSimulation simulation(quick, options);
   Drive drive;
   Pose2 last = simulation.truth().world_from_base;
@@ -101,6 +102,13 @@ TEST(ShippedWorlds, TheRingIsClosed) {
   const Drive drive = DriveThrough(Load("ring"), "");
   EXPECT_GT(drive.metres, 60.0);
   EXPECT_LT(drive.metres, 80.0);
+}
+
+TEST(ShippedWorlds, AnotherRoundGoesOnFromTheEndOfThePath) {
+  const Scenario ring = Load("ring");
+  const double once = DriveThrough(ring, "round").metres;
+  // It ends 3 m ahead of where it began.
+  EXPECT_NEAR(DriveThrough(ring, "round", 2).metres, 2.0 * once - 3.0, 0.1);
 }
 
 TEST(ShippedWorlds, FlushDecorationsAreNotSeenByTheLaser) {
