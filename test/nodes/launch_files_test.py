@@ -149,9 +149,17 @@ class LaunchFilesTest(unittest.TestCase):
         saving = load('slam.launch', state='office.state', autosave='60')
         self.assertEqual(value(saving, '/mapper/autosave_period'), 60)
         self.assertTrue(next(n for n in saving.nodes if n.name == 'mapper').respawn)
-        played = load('bag.launch', bag='/a.bag', state='/b.state', localization='true')
-        self.assertEqual(value(played, '/mapper/state_file'), '/b.state')
-        self.assertEqual(value(played, '/mapper/localization'), True)
+
+    def test_every_way_to_start_takes_a_saved_map(self):
+        for name, arguments in (('bag.launch', {'bag': '/a.bag'}), ('robot.launch', {}),
+                                ('tetra_ds3.launch', {}), ('simulation.launch', {})):
+            with self.subTest(name):
+                loaded = load(name, state='/b.state', localization='true', **arguments)
+                self.assertEqual(value(loaded, '/mapper/state_file'), '/b.state')
+                self.assertEqual(value(loaded, '/mapper/localization'), True)
+                if name != 'bag.launch':
+                    saving = load(name, autosave='60', **arguments)
+                    self.assertEqual(value(saving, '/mapper/autosave_period'), 60)
 
     def test_slam_takes_the_path_of_a_configuration(self):
         path = os.path.join(PACKAGE, 'config', 'paper.yaml')
