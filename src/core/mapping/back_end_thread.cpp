@@ -9,7 +9,7 @@ GraphState StateOf(const LoopCloser& closer) {
   GraphState state;
   state.poses = closer.poses();
   for (const GraphConstraint& constraint : closer.constraints()) {
-    if (constraint.closes_loop) state.closures.emplace_back(constraint.from, constraint.to);
+    if (constraint.closes_loop()) state.closures.emplace_back(constraint.from, constraint.to);
   }
   return state;
 }

@@ -5,7 +5,7 @@
 namespace scan_image_slam {
 /// True if a constraint shows that the place of a keyframe was known.
 bool KnownPlaces::Shows(const GraphConstraint& c, int id) const {
-  return c.closes_loop && c.to == id && c.overlap >= options_.min_overlap &&
+  return c.closes_loop() && c.to == id && c.overlap >= options_.min_overlap &&
          c.from_from_to.translation().norm() <= options_.max_distance &&
          std::abs(c.from_from_to.theta) <= options_.max_angle &&
          !keyframes_[c.from]->points.empty();
@@ -24,7 +24,7 @@ bool KnownPlaces::IsNeedless(int id) const {
   if (!anchor) return false;
   int visits = 0;
   for (const GraphLink& link : links_[*anchor]) {
-    if (constraints_[link.constraint].closes_loop && link.node > *anchor && link.node < id) {
+    if (constraints_[link.constraint].closes_loop() && link.node > *anchor && link.node < id) {
       ++visits;
     }
   }
@@ -36,7 +36,7 @@ std::vector<GraphConstraint> Without(const std::map<int, AttachedPose>& anchors,
   std::vector<GraphConstraint> kept;
   std::optional<GraphConstraint> way;  // to a keyframe that is anchored
   for (const GraphConstraint& c : constraints) {
-    if (c.closes_loop) {
+    if (c.closes_loop()) {
       if (anchors.count(c.from) == 0 && anchors.count(c.to) == 0) kept.push_back(c);
       continue;
     }

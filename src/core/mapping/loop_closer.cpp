@@ -83,12 +83,12 @@ void LoopCloser::Join(const GraphConstraint& constraint) {
   constexpr double kRecognised = 0.5;  // [m]
   const auto [from, to] = std::make_pair(constraint.from, constraint.to);
   const double way =
-      constraint.closes_loop ? kRecognised : keyframes_[to]->way - keyframes_[from]->way;
+      constraint.closes_loop() ? kRecognised : keyframes_[to]->way - keyframes_[from]->way;
   const int index = static_cast<int>(constraints_.size());
   links_[from].push_back({to, index, way});
   links_[to].push_back({from, index, way});
   constraints_.push_back(constraint);
-  closures_ += constraint.closes_loop ? 1 : 0;
+  closures_ += constraint.closes_loop() ? 1 : 0;
 }
 
 /// Forgets all other constraints.
@@ -214,7 +214,7 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
   closure.from_from_to = submap_from_near.Inverse() * match->submap_from_base;
   closure.information =
       WithNoise(match->information, Eigen::Vector3d(s * s, s * s, a * a).asDiagonal());
-  closure.closes_loop = true;
+  closure.robust = true;
   closure.overlap = match->overlap;
   return closure;
 }
@@ -246,7 +246,7 @@ bool LoopCloser::Contradicted(const GraphConstraint& constraint, double deviatio
 bool LoopCloser::TakeBack() {
   std::vector<GraphConstraint> kept;
   for (const GraphConstraint& c : constraints_) {
-    if (!c.closes_loop || !Contradicted(c, options_.max_deviation)) kept.push_back(c);
+    if (!c.closes_loop() || !Contradicted(c, options_.max_deviation)) kept.push_back(c);
   }
   if (kept.size() == constraints_.size()) return false;
   JoinOnly(kept);

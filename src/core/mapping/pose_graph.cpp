@@ -71,6 +71,7 @@ class ConstraintCost : public ceres::SizedCostFunction<3, 3, 3> {
 GraphConstraint Chained(const GraphConstraint& first, const GraphConstraint& second) {
   GraphConstraint chained = second;
   chained.from = first.from;
+  chained.robust = first.robust || second.robust;
   chained.from_from_to = first.from_from_to * second.from_from_to;
   const Eigen::Matrix3d covariance =
       TransportCovariance(first.information.inverse(), second.from_from_to) +
@@ -95,8 +96,7 @@ void OptimizeGraph(const std::vector<GraphConstraint>& constraints, int first_fr
   ceres::Problem problem;
   for (const GraphConstraint& constraint : constraints) {
     if (std::max(constraint.from, constraint.to) < first_free) continue;
-    ceres::LossFunction* loss =
-        constraint.closes_loop ? new ceres::CauchyLoss(options.kernel) : nullptr;
+    ceres::LossFunction* loss = constraint.robust ? new ceres::CauchyLoss(options.kernel) : nullptr;
     problem.AddResidualBlock(new ConstraintCost(constraint), loss, value(constraint.from),
                              value(constraint.to));
   }

@@ -144,7 +144,7 @@ void Put(const GraphConstraint& constraint, ByteWriter* out) {
   out->Write(static_cast<std::int32_t>(constraint.to));
   Put(constraint.from_from_to, out);
   PutMatrix(constraint.information, out);
-  out->Write(static_cast<std::uint8_t>(constraint.closes_loop));
+  out->Write(static_cast<std::uint8_t>(constraint.robust));
   out->Write(constraint.overlap);
 }
 
@@ -154,7 +154,7 @@ GraphConstraint GetConstraint(ByteReader* in, int keyframes) {
   constraint.to = in->ReadIndex(constraint.from + 1, keyframes - 1);
   constraint.from_from_to = GetPose(in);
   constraint.information = GetMatrix<Eigen::Matrix3d>(in);
-  constraint.closes_loop = GetBool(in);
+  constraint.robust = GetBool(in);
   constraint.overlap = in->Read<double>();
   return constraint;
 }

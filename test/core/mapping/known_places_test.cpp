@@ -28,7 +28,7 @@ class FourVisits : public ::testing::Test {
     constraint.to = to;
     constraint.from_from_to = {0.3, 0.3, 0.4};
     constraint.information = 400.0 * Eigen::Matrix3d::Identity();
-    constraint.closes_loop = closes_loop;
+    constraint.robust = closes_loop;
     constraint.overlap = closes_loop ? 0.95 : 0.0;
     const int index = static_cast<int>(constraints_.size());
     links_[from].push_back({to, index, 1.0});
@@ -37,7 +37,7 @@ class FourVisits : public ::testing::Test {
   }
   GraphConstraint& Closure(int to) {
     for (GraphConstraint& c : constraints_) {
-      if (c.to == to && c.closes_loop) return c;
+      if (c.to == to && c.closes_loop()) return c;
     }
     throw std::logic_error("no closure");
   }
@@ -98,8 +98,8 @@ TEST_F(FourVisits, TheWayPastWhatIsLeftOutIsKept) {
   EXPECT_EQ(kept.size(), constraints_.size() - 2 - 2);  // closures; two of three steps
   std::vector<int> ways;
   for (const GraphConstraint& c : kept) {
-    if (!c.closes_loop) ways.push_back(c.from);
-    if (c.closes_loop || c.from != 3) continue;
+    if (!c.closes_loop()) ways.push_back(c.from);
+    if (c.closes_loop() || c.from != 3) continue;
     EXPECT_EQ(c.to, 6);
     const Pose2 step{0.3, 0.3, 0.4};
     const Pose2 apart = (step * step * step).Inverse() * c.from_from_to;
@@ -109,6 +109,19 @@ TEST_F(FourVisits, TheWayPastWhatIsLeftOutIsKept) {
   // What is left out later is left out of what was left.
   const std::vector<GraphConstraint> less = Without({{7, {}}}, kept);
   EXPECT_EQ(less.size(), kept.size() - 2);
+}
+
+TEST_F(FourVisits, AMotionThatMayBeWrongIsNoRecognisedPlace) {
+  for (GraphConstraint& c : constraints_) {
+    if (c.from == 4 && c.to == 5) c.robust = true;  // the matching could not follow
+  }
+  EXPECT_FALSE(Places().AnchorOf(5) == 4);
+  anchors_[5] = {};
+  int past = 0;
+  for (const GraphConstraint& c : Without(anchors_, constraints_)) {
+    past += c.from == 4 && c.to == 6 && c.robust ? 1 : 0;
+  }
+  EXPECT_EQ(past, 1);
 }
 
 TEST_F(FourVisits, WhatIsKeptIsNeeded) {

@@ -206,7 +206,8 @@ TEST(LoopCloser, TakesAClosureBackThatLaterOnesContradict) {
   wrong.from_from_to = drive.truth[wrong.from].Inverse() * drive.truth[wrong.to];
   wrong.from_from_to.x += 2.0;
   wrong.information = Eigen::Vector3d(2500, 2500, 62500).asDiagonal();
-  wrong.closes_loop = true;
+  wrong.robust = true;
+  wrong.overlap = 0.5;
   memory.constraints.push_back(wrong);
   LoopCloser closer{LoopCloserOptions()};
   closer.Load(memory);

@@ -92,11 +92,11 @@ TEST(OptimizeGraph, AWrongPlaceAmongManyRightOnesIsOverruled) {
   for (int i = 1; i < 10; ++i) constraints.push_back(Between(nodes, i - 1, i, 1e4));
   for (int i = 5; i < 10; ++i) {
     constraints.push_back(Between(nodes, 0, i, 1e4));
-    constraints.back().closes_loop = true;
+    constraints.back().robust = true;
   }
   GraphConstraint wrong = Between(nodes, 0, 9, 1e4);
   wrong.from_from_to.y = 3.0;
-  wrong.closes_loop = true;
+  wrong.robust = true;
   constraints.push_back(wrong);
   std::vector<Pose2> found = nodes;
   OptimizeGraph(constraints, 1, GraphOptions(), &found);
@@ -133,7 +133,9 @@ TEST(PoseGraph, TwoMotionsInARowHaveTheErrorsOfBoth) {
   EXPECT_EQ(both.from, 4);
   EXPECT_EQ(both.to, 8);
   EXPECT_DOUBLE_EQ(both.from_from_to.x, 6.0);
-  EXPECT_FALSE(both.closes_loop);
+  EXPECT_FALSE(both.robust);
+  first.robust = true;
+  EXPECT_TRUE(Chained(first, second).robust);
   const Eigen::Matrix3d covariance = both.information.inverse();
   EXPECT_NEAR(covariance(0, 0), 2 * kForward, 1e-9);
   EXPECT_NEAR(covariance(1, 1), 2 * kLeft + 9 * kTurn, 1e-9);

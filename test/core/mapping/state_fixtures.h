@@ -18,7 +18,7 @@ class DistinctNumbers {
       state.graph.poses.push_back(NextPose());
     }
     state.graph.constraints = {NextConstraint(0, 1), NextConstraint(1, 2), NextConstraint(0, 2)};
-    state.graph.constraints.back().closes_loop = true;
+    state.graph.constraints.back().robust = true;
     state.graph.anchors = {{1, {0, NextPose()}}, {2, {1, NextPose()}}};
     state.graph.closures_since_optimization = 7;
     for (int keyframe = -1; keyframe < 2; ++keyframe) state.drawn.push_back(NextDrawn(keyframe));
@@ -130,7 +130,7 @@ inline void ExpectSame(const GraphMemory& a, const GraphMemory& b) {
     EXPECT_EQ(a.constraints[i].to, b.constraints[i].to);
     ExpectSame(a.constraints[i].from_from_to, b.constraints[i].from_from_to);
     EXPECT_EQ(a.constraints[i].information, b.constraints[i].information);
-    EXPECT_EQ(a.constraints[i].closes_loop, b.constraints[i].closes_loop);
+    EXPECT_EQ(a.constraints[i].robust, b.constraints[i].robust);
     EXPECT_EQ(a.constraints[i].overlap, b.constraints[i].overlap);
   }
   ASSERT_EQ(a.anchors.size(), b.anchors.size());

@@ -15,8 +15,11 @@ struct GraphConstraint {
   Pose2 from_from_to;
   Eigen::Matrix3d information =
       Eigen::Matrix3d::Identity();  ///< of (forward, left, turn) of `to` [1/m^2, 1/m^2, 1/rad^2]
-  bool closes_loop = false;         ///< a recognised place, which may be wrong: Cauchy's loss
-  double overlap = 0.0;             ///< share of what `to` saw that was known there [-]
+  bool robust = false;              ///< it may be wrong: Cauchy's loss
+  double overlap = 0.0;  ///< share of what `to` saw that was known there; a motion: 0 [-]
+
+  /// True if it tells of a place seen before, not of the way from one keyframe to the next.
+  bool closes_loop() const { return overlap > 0.0; }
 };
 
 /// What two motions in a row tell of the pose of the last node in the frame of the first.
