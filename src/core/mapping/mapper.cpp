@@ -53,6 +53,7 @@ void MapperOptions::Validate() const {
   require(map_update_distance_thresh, "map_update_distance_thresh");
   require(map_update_angle_thresh, "map_update_angle_thresh");
   require(map_update_time_thresh, "map_update_time_thresh");
+  if (max_scans_per_place < 1) throw std::invalid_argument("max_scans_per_place must be positive");
 }
 
 Mapper::Mapper(const MapperOptions& options)

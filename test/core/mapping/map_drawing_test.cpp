@@ -195,6 +195,9 @@ TEST(MapperOptions, NamesTheFieldThatIsOutOfRange) {
     }
     EXPECT_EQ(error_of(field, 0.0), "") << name;
   }
+  MapperOptions nothing;
+  nothing.max_scans_per_place = 0;
+  EXPECT_THROW(Mapper{nothing}, std::invalid_argument);
 }
 
 }  // namespace
