@@ -16,6 +16,7 @@ namespace scan_image_slam {
 /// one beyond the bytes that are left. So an array that can't be there is not allocated, and told
 /// as what leaves the message; ros::serialization::IStream makes room for it first.
 struct FirstLookStream : ros::serialization::Stream {
+  // NOLINTNEXTLINE(readability-identifier-naming): roscpp asks for this name
   static const ros::serialization::StreamType stream_type = ros::serialization::stream_types::Input;
 
   FirstLookStream(std::uint8_t* data, std::uint32_t size) : Stream(data, size) {}
