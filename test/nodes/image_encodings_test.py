@@ -141,7 +141,7 @@ class ImageEncodingsTest(unittest.TestCase):
         short = CompressedImage(format='jpeg', data=b'\xff\xd8\xff')
         short.header.stamp = rospy.Time.from_sec(self.time)
         self.compressed_image.publish(short)
-        self.console.said('image_raw/compressed', "format 'jpeg'", 'decoded')
+        self.console.said('image_raw/compressed', "format 'jpeg'", 'no JPEG or PNG')
 
 
 if __name__ == '__main__':
