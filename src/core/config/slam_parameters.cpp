@@ -142,6 +142,8 @@ void AddLocalMapMatcher(LocalMapMatcherOptions* o, ParameterSet* set) {
                   "how wrong the yaw of the camera may be; learned while driving");
   set->Add("filter/edge_correlation", &o->filter.edge_correlation, "-", {1.0, 1e6},
            "edges of successive images that err together, as if they were one");
+  set->Add("filter/edge_bias", &o->filter.edge_bias, "-", {0.0, 10.0},
+           "part of an edge's standard deviation that lasts from image to image");
   set->Add("filter/keep_distance", &o->filter.keep_distance, "m", kPositive,
            "driven since an edge was seen, until it is forgotten");
   RefinementOptions& r = o->refinement;

@@ -123,7 +123,7 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
     refined = refine_from(refined.map_from_base);
   }
 
-  Filter(refined, model.edges, map_from_last, prediction);
+  Filter(refined, CorrectSweep(model.edges, outcome.sweep_correction), map_from_last, prediction);
   const ArcCoordinates deviation =
       ToArcCoordinates(map_from_predicted.Inverse() * filter_.map_from_base());
   outcome.on_window_edge = !prediction.window.Contains(deviation);

@@ -14,12 +14,19 @@ constexpr double kScaleWalk = 3e-4;        // how the scale changes: loads, floo
 constexpr double kGate = 3.0;              // farther off is no measurement of it [std. deviations]
 constexpr std::size_t kMostEdges = 40;     // at once; more would tell nothing new
 constexpr double kLeastInformation = 1.0;  // of a direction [1/m^2, 1/rad^2]
+constexpr double kLeastTilt = 0.01;        // what the normals of a scan are good for [rad]
+constexpr double kSmoothing = 0.1;         // share of the newest sight in an edge's precision
 
 /// From (forward, left, turn) of the base to (x, y, turn) of the map.
 Eigen::Matrix3d MapFromBase(double heading) {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   rotation.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(heading).toRotationMatrix();
   return rotation;
+}
+
+/// How the place of an edge on its surface changes with its bearing, in the map [m/rad].
+Eigen::Vector2d AlongSurface(const ModelEdge& edge, const Eigen::Vector2d& ray) {
+  return edge.range * Across(ray) + edge.range_by_bearing * ray;
 }
 
 }  // namespace
@@ -30,6 +37,7 @@ void PoseFilterOptions::Validate() const {
     if (!ok) throw std::invalid_argument(what);
   };
   require(edge_correlation >= 1.0, "edge_correlation must be at least 1");
+  require(edge_bias >= 0.0, "edge_bias must not be negative");
   require(scale_stddev >= 0.0, "scale_stddev must not be negative");
   require(camera_yaw_stddev >= 0.0, "camera_yaw_stddev must not be negative");
   require(keep_distance > 0.0, "keep_distance must be positive");
@@ -81,10 +89,18 @@ void PoseFilter::AddScan(const Pose2& map_from_base, const Eigen::Matrix3d& info
   // In its own directions the scan measures three numbers that have nothing to do with each other.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
   const Eigen::Matrix3d rotation = MapFromBase(map_from_base.theta);
+  const Eigen::Vector2d least_known =
+      rotation.topLeftCorner<2, 2>().transpose() * LeastKnownDirection();
   for (int i = 0; i < 3; ++i) {
     const double amount = eigen.eigenvalues()[i];
     if (amount < kLeastInformation) continue;
-    const Eigen::Vector3d direction = eigen.eigenvectors().col(i);
+    Eigen::Vector3d direction = eigen.eigenvectors().col(i);
+    // Walls of a corridor that seem to be tilted say nothing of the way along it, or thousands of
+    // scans would together.
+    const double part = least_known.dot(direction.head<2>());
+    if (std::abs(part) < kLeastTilt * direction.head<2>().norm()) {
+      direction.head<2>() -= part * least_known;
+    }
     const Pose2 off = map_from_base.Inverse() * map_from_base_;
     const double here = direction.dot(off.coordinates());
     const double best = -direction.dot(gradient) / amount;
@@ -121,6 +137,7 @@ int PoseFilter::AddEdges(const std::vector<ModelEdge>& edges) {
   }
   int used = 0;
   for (const auto& [edge, track] : known) {
+    LetShift(*edge, track);
     const Sight sight = SightOf(*edge, track);
     if (std::abs(sight.innovation) > kGate * std::sqrt(VarianceOf(sight))) continue;
     Update(sight.innovation, sight.variance, sight.jacobian);
@@ -140,6 +157,11 @@ Eigen::Matrix3d PoseFilter::PoseCovariance() const {
 
 LearnedCalibration PoseFilter::learned() const {
   return {scale(), camera_yaw(), std::sqrt(covariance_(kYaw, kYaw))};
+}
+
+Eigen::Vector2d PoseFilter::LeastKnownDirection() const {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance_.topLeftCorner<2, 2>());
+  return eigen.eigenvectors().col(1);
 }
 
 /// Where an edge is in the map: on the surface that the laser sees at its bearing.
@@ -194,6 +216,24 @@ void PoseFilter::Update(double innovation, double variance, const Eigen::VectorX
   state_.head<3>().setZero();
 }
 
+/// What is finer than a column of the image runs into the edge and shifts it, in one image like in
+/// the next; the shift changes as the edge comes nearer.
+void PoseFilter::LetShift(const ModelEdge& edge, int id) {
+  Track& track = tracks_[id];
+  track.bearing_stddev += kSmoothing * (edge.bearing_stddev - track.bearing_stddev);
+  const Eigen::Vector2d along =
+      AlongSurface(edge, Direction(edge.bearing + camera_yaw() + map_from_base_.theta));
+  const double variance = ShiftVariance(track.bearing_stddev, along);
+  const int i = IndexOf(id);
+  covariance_.block<2, 2>(i, i) += std::abs(variance - track.shift_variance) * along.normalized() *
+                                   along.normalized().transpose();
+  track.shift_variance = variance;
+}
+
+double PoseFilter::ShiftVariance(double bearing_stddev, const Eigen::Vector2d& along) const {
+  return std::pow(options_.edge_bias * bearing_stddev, 2) * along.squaredNorm();
+}
+
 /// A new edge is where the laser's range puts it, and as wrong as the pose and the camera's yaw.
 void PoseFilter::Begin(const ModelEdge& edge) {
   const int size = static_cast<int>(state_.size());
@@ -221,7 +261,8 @@ void PoseFilter::Begin(const ModelEdge& edge) {
   covariance_ = covariance;
   state_.conservativeResize(size + 2);
   state_.tail<2>() = place;
-  tracks_.push_back({edge.sign, way_});
+  tracks_.push_back({edge.sign, way_, edge.bearing_stddev,
+                     ShiftVariance(edge.bearing_stddev, AlongSurface(edge, ray))});
 }
 
 /// What has been out of view for a while leaves the filter.

@@ -131,4 +131,13 @@ std::vector<SurfacePoint> CorrectSweep(std::vector<SurfacePoint> points,
   return points;
 }
 
+std::vector<ModelEdge> CorrectSweep(std::vector<ModelEdge> edges, const Velocity2& difference) {
+  for (ModelEdge& edge : edges) {
+    const Pose2 correction = Move(difference, edge.time_offset);
+    edge.camera = correction * edge.camera;
+    edge.bearing = NormalizeAngle(edge.bearing + correction.theta);
+  }
+  return edges;
+}
+
 }  // namespace scan_image_slam

@@ -121,5 +121,52 @@ TEST(SweepCorrection, IsNotAppliedTwice) {
   EXPECT_NEAR(outcome.deviation.angle, 0.0, 1e-3);
 }
 
+TEST(SweepCorrection, TurnsAnEdgeBackByTheAgeOfItsImage) {
+  ModelEdge edge;
+  edge.camera = {0.2, 0.1};
+  edge.bearing = 0.3;
+  edge.time_offset = -0.02;
+  const std::vector<ModelEdge> turned = CorrectSweep(std::vector<ModelEdge>{edge}, {0.0, 0.0, 0.5});
+  EXPECT_NEAR(turned[0].bearing, 0.29, 1e-12);
+  EXPECT_NEAR(turned[0].camera.x(), 0.2 * std::cos(0.01) + 0.1 * std::sin(0.01), 1e-12);
+  EXPECT_NEAR(turned[0].camera.y(), 0.1 * std::cos(0.01) - 0.2 * std::sin(0.01), 1e-12);
+  const std::vector<ModelEdge> moved = CorrectSweep(std::vector<ModelEdge>{edge}, {2.0, 0.0, 0.0});
+  EXPECT_NEAR(moved[0].bearing, 0.3, 1e-12);
+  EXPECT_NEAR(moved[0].camera.x(), 0.16, 1e-12);
+  EXPECT_NEAR(moved[0].camera.y(), 0.1, 1e-12);
+}
+
+/// Where an image that was taken 40 ms before the scan shows a place, if the encoders have told
+/// nothing of a turn of 0.5 rad/s that began 50 ms before it.
+ModelEdge EdgeInOldImage(const Eigen::Vector2d& place) {
+  ModelEdge edge;
+  edge.bearing = std::atan2(place.y(), place.x()) - 0.005;
+  edge.bearing_stddev = 0.0005;
+  edge.range = place.norm();
+  edge.range_stddev = 0.01;
+  edge.time_offset = -0.04;
+  edge.sign = 1;
+  edge.weight = 1.0;
+  return edge;
+}
+
+TEST(SweepCorrection, ATurnThatTheEncodersHaveMissedIsNoWayAlongACorridor) {
+  const Room corridor{{{-6.0, -1.2}, {6.0, -1.2}}, {{-6.0, 1.2}, {6.0, 1.2}}};
+  const Eigen::Vector2d place(2.0, 1.2);
+  ModelEdge first = EdgeInOldImage(place);
+  first.bearing += 0.005;
+  FusedModel start = ModelOf(corridor, kOrigin, 0, TestLaser());
+  start.edges = {first};
+  LocalMapMatcher matcher{LocalMapMatcherOptions()};
+  matcher.Start(start, kOrigin);
+  const Velocity2 turning{0.0, 0.0, 0.5};
+  FusedModel next = ModelOf(corridor, Move(turning, 0.05), 1, SweepingLaser(-0.02, turning));
+  next.edges = {EdgeInOldImage(place)};
+  const MatchOutcome outcome = matcher.Match(next, kOrigin, Predicted(kOrigin));
+  EXPECT_NEAR(outcome.sweep_correction.theta, 0.5, 0.02);
+  // An edge that stayed 20 mrad off would be taken for 9 cm of way.
+  EXPECT_NEAR(outcome.deviation.distance, 0.0, 0.01);
+}
+
 }  // namespace
 }  // namespace scan_image_slam

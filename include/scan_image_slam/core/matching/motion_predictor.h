@@ -13,14 +13,14 @@ namespace scan_image_slam {
 /// Standard deviation of a predicted motion: how wrong the encoders usually are, where MotionBounds
 /// says how wrong they can be.
 struct MotionNoise {
-  double distance_per_distance = 0.1;  ///< [m/m]
-  double distance_per_time = 0.06;     ///< [m/s]
-  double min_distance = 0.0003;        ///< [m]
-  double lateral_fraction = 0.7;       ///< sideways, of that along the way [-]
-  double angle_per_angle = 0.2;        ///< [rad/rad]
-  double angle_per_distance = 0.1;     ///< [rad/m]
-  double angle_per_time = 0.2;         ///< [rad/s]
-  double min_angle = 0.0003;           ///< [rad]
+  double distance_per_distance = 0.05;  ///< [m/m]
+  double distance_per_time = 0.04;      ///< [m/s]
+  double min_distance = 0.0003;         ///< [m]
+  double lateral_fraction = 0.7;        ///< sideways, of that along the way [-]
+  double angle_per_angle = 0.2;         ///< [rad/rad]
+  double angle_per_distance = 0.1;      ///< [rad/m]
+  double angle_per_time = 0.2;          ///< [rad/s]
+  double min_angle = 0.0003;            ///< [rad]
   /// Throws std::invalid_argument, naming the field, if a value is negative or not finite.
   void Validate() const;
 };

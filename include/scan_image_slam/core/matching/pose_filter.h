@@ -14,8 +14,9 @@ namespace scan_image_slam {
 
 struct PoseFilterOptions {
   EdgeMapOptions edges;
-  double edge_correlation = 10.0;  ///< see RefinementOptions [-]
-  double scale_stddev = 0.03;      ///< of the encoders' distance: wheels worn or soft [-]
+  double edge_correlation = 4.0;  ///< see RefinementOptions [-]
+  double edge_bias = 0.5;         ///< part of an edge's deviation that lasts while it is seen [-]
+  double scale_stddev = 0.03;     ///< of the encoders' distance: wheels worn or soft [-]
   double camera_yaw_stddev = 0.6 * M_PI / 180.0;  ///< of the camera's yaw to the laser [rad]
   double keep_distance = 2.0;  ///< driven since an edge was seen, until it is forgotten [m]
   /// Throws std::invalid_argument, naming the field, if a value is out of range.
@@ -81,7 +82,9 @@ class PoseFilter {
 
   struct Track {
     int sign = 0;
-    double last_seen = 0.0;  // way
+    double last_seen = 0.0;       // way
+    double bearing_stddev = 0.0;  // smoothed [rad]
+    double shift_variance = 0.0;  // of the place where it seems to be, along its surface [m^2]
   };
   /// What an edge should be, and how it depends on the state.
   struct Sight {
@@ -91,6 +94,7 @@ class PoseFilter {
   };
 
   int IndexOf(int track) const { return kFirstEdge + 2 * track; }
+  Eigen::Vector2d LeastKnownDirection() const;  ///< of the position, in the map
   Eigen::Vector2d PlaceOf(int track) const { return state_.segment<2>(IndexOf(track)); }
   Eigen::Vector2d PlaceOf(const ModelEdge& edge) const;
   int Nearest(const ModelEdge& edge, double reach) const;
@@ -98,6 +102,8 @@ class PoseFilter {
   double VarianceOf(const Sight& sight) const;
   void Update(double innovation, double variance, const Eigen::VectorXd& jacobian);
   void Begin(const ModelEdge& edge);
+  void LetShift(const ModelEdge& edge, int id);
+  double ShiftVariance(double bearing_stddev, const Eigen::Vector2d& along) const;
   void ForgetOld();
 
   PoseFilterOptions options_;

@@ -48,4 +48,8 @@ std::vector<SurfacePoint> EstimateSurface(const FusedModel& model, const Surface
 std::vector<SurfacePoint> CorrectSweep(std::vector<SurfacePoint> points,
                                        const Velocity2& difference);
 
+/// The same for edges, since the image was taken that shows them: wheels that slip turn an image
+/// that is 30 ms old by many columns.
+std::vector<ModelEdge> CorrectSweep(std::vector<ModelEdge> edges, const Velocity2& difference);
+
 }  // namespace scan_image_slam
