@@ -141,8 +141,8 @@ void BoundedIcpNode::Publish(const MatchedMotion& match) {
 /// Small errors of the camera's yaw are made up for; it is told if they are large and certain.
 void BoundedIcpNode::CheckCalibration() {
   constexpr double kTolerated = 0.3;  // [deg]
-  // Standard deviation [deg]. In the first metres of a room edges that are not on the surface behind
-  // them deceive it by more than it says.
+  // Standard deviation [deg]. In the first metres of a room edges that are not on the surface
+  // behind them deceive it by more than it says.
   constexpr double kCertain = 0.04;
   const LearnedCalibration learned = bounded_icp_.learned();
   const double yaw = Degrees(learned.camera_yaw);
