@@ -1,7 +1,5 @@
 #include "scan_image_slam/ros/graph_markers.h"
 
-#include <cstddef>
-
 namespace scan_image_slam {
 namespace {
 
@@ -39,7 +37,7 @@ visualization_msgs::MarkerArray ToMarkers(const GraphState& graph, const std::st
 
   visualization_msgs::Marker way = marker;
   way.ns = "way";
-  way.type = visualization_msgs::Marker::LINE_STRIP;
+  way.type = visualization_msgs::Marker::LINE_LIST;
   way.scale.x = 0.02;
   way.color = Colour(0.1F, 0.7F, 0.1F);
 
@@ -49,13 +47,16 @@ visualization_msgs::MarkerArray ToMarkers(const GraphState& graph, const std::st
   closures.scale.x = 0.03;
   closures.color = Colour(0.9F, 0.2F, 0.7F);
 
-  for (const Pose2& pose : graph.poses) {
+  for (const auto& [id, pose] : graph.poses) {
     keyframes.points.push_back(ToPoint(pose));
+    const auto next = graph.poses.find(id + 1);
+    if (next == graph.poses.end()) continue;  // it was let go, as its place was known
     way.points.push_back(ToPoint(pose));
+    way.points.push_back(ToPoint(next->second));
   }
   for (const auto& [from, to] : graph.closures) {
-    closures.points.push_back(ToPoint(graph.poses[static_cast<std::size_t>(from)]));
-    closures.points.push_back(ToPoint(graph.poses[static_cast<std::size_t>(to)]));
+    closures.points.push_back(ToPoint(graph.poses.at(from)));
+    closures.points.push_back(ToPoint(graph.poses.at(to)));
   }
   visualization_msgs::MarkerArray array;
   array.markers = {keyframes, way, closures};

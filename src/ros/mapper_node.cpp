@@ -155,7 +155,7 @@ void MapperNode::ApplyNews() {
   BackEndNews news = back_end_.Take();
   if (news.location) ApplyLocation(*news.location);
   if (!news.graph) return;
-  mapper_.Correct(news.graph->poses);
+  mapper_.Correct(news.graph->poses, news.graph->let_go);
   graph_ = std::move(news.graph);
   trajectory_moved_ = true;
   changed_ = true;

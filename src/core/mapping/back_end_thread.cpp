@@ -8,6 +8,7 @@ namespace {
 GraphState StateOf(const LoopCloser& closer) {
   GraphState state;
   state.poses = closer.poses();
+  state.let_go = closer.let_go();
   for (const GraphConstraint& constraint : closer.constraints()) {
     if (constraint.closes_loop()) state.closures.emplace_back(constraint.from, constraint.to);
   }
@@ -83,20 +84,22 @@ std::future<void> BackEndThread::Save(MapState state, std::string path) {
   return future;
 }
 
-void BackEndThread::Post(Job job, bool new_map) {
+void BackEndThread::Post(Work work, bool new_map) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (new_map) {
       ++map_number_;
       news_ = BackEndNews();
+      taken_ = -1;
     }
-    jobs_.emplace_back(std::move(job), map_number_);
+    jobs_.push_back({std::move(work), map_number_, taken_});
   }
   changed_.notify_one();
 }
 
 BackEndNews BackEndThread::Take() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (news_.graph && !news_.graph->poses.empty()) taken_ = news_.graph->poses.rbegin()->first;
   return std::exchange(news_, BackEndNews());
 }
 
@@ -110,12 +113,13 @@ void BackEndThread::Run() {
   while (true) {
     changed_.wait(lock, [this] { return stop_ || !jobs_.empty(); });
     if (stop_) return;
-    const auto [job, map_number] = std::move(jobs_.front());
+    const Job job = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();
-    BackEndNews found = job(back_end_);
+    back_end_.ForgetLetGo(job.taken);
+    BackEndNews found = job.work(back_end_);
     lock.lock();
-    if (map_number != map_number_) continue;
+    if (job.map_number != map_number_) continue;
     if (found.graph) news_.graph = std::move(found.graph);
     if (found.location) news_.location = found.location;
   }

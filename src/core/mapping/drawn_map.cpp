@@ -46,7 +46,11 @@ void DrawnMap::Load(const std::vector<DrawnScan>& scans) {
   }
 }
 
-bool DrawnMap::Redraw(const std::vector<Pose2>& keyframe_poses, int max_scans) {
+void DrawnMap::Reattach(const Anchors& let_go) {
+  for (auto& [number, drawn] : scans_) drawn.pose = Reattached(drawn.pose, let_go);
+}
+
+bool DrawnMap::Redraw(const GraphPoses& keyframe_poses, int max_scans) {
   constexpr double kCells = 0.2;
   constexpr double kAngle = 0.002;  // [rad]
   auto end = scans_.lower_bound(to_redraw_);

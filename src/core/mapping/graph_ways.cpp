@@ -31,7 +31,7 @@ GraphWays::GraphWays(const GraphLinks& links, int from, const std::vector<int>& 
     open.pop();
     if (length > steps_[node].length) continue;
     left.erase(node);
-    for (const GraphLink& link : links[node]) {
+    for (const GraphLink& link : links.at(node)) {
       const double longer = length + link.way;
       Step& step = steps_[link.node];
       if (longer >= step.length) continue;

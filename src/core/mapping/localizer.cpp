@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace scan_image_slam {
 namespace {
 
 /// A box around all places that the keyframes were taken at, in all directions.
-PoseWindow BoxAround(const std::vector<Pose2>& poses, double margin) {
-  Eigen::Vector2d lower = poses.front().translation();
+PoseWindow BoxAround(const GraphPoses& poses, double margin) {
+  Eigen::Vector2d lower = poses.begin()->second.translation();
   Eigen::Vector2d upper = lower;
-  for (const Pose2& pose : poses) {
+  for (const auto& [id, pose] : poses) {
     lower = lower.cwiseMin(pose.translation());
     upper = upper.cwiseMax(pose.translation());
   }
@@ -20,6 +23,17 @@ PoseWindow BoxAround(const std::vector<Pose2>& poses, double margin) {
   window.half_distance = 0.5 * (upper - lower).maxCoeff() + margin;
   window.half_angle = M_PI;
   return window;
+}
+
+/// All of a map at once.
+Submap WholeMap(const GraphMemory& graph, const SubmapOptions& options) {
+  std::vector<std::shared_ptr<const Keyframe>> keyframes;
+  std::vector<Pose2> poses;
+  for (const auto& [id, keyframe] : graph.keyframes) {
+    keyframes.push_back(keyframe);
+    poses.push_back(graph.poses.at(id));
+  }
+  return Submap(keyframes, std::move(poses), options);
 }
 
 Location At(const Sighting& sighting, const LoopMatch& match) {
@@ -35,7 +49,7 @@ Location At(const Sighting& sighting, const LoopMatch& match) {
 
 Localizer::Localizer(const GraphMemory& graph, const LocalizerOptions& options)
     : options_(options),
-      map_(graph.keyframes, graph.poses, options.submap),
+      map_(WholeMap(graph, options.submap)),
       anywhere_(BoxAround(graph.poses, options.margin)) {}
 
 std::optional<Location> Localizer::Look(const Sighting& sighting) {

@@ -36,13 +36,13 @@ void LoopCloser::SetOptions(const LoopCloserOptions& options) {
 
 bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
   if (keyframe->id == 0) *this = LoopCloser(options_);  // the map has begun anew
-  const int id = static_cast<int>(keyframes_.size());
+  const int id = keyframe->id;
+  const Keyframe& added = *keyframe;
   Enter(std::move(keyframe));
-  const Keyframe& added = *keyframes_.back();
   if (id == 0) {
-    poses_.push_back(added.previous_from_base);
+    poses_[id] = added.previous_from_base;
   } else {
-    poses_.push_back(poses_.back() * added.previous_from_base);
+    poses_[id] = poses_.at(id - 1) * added.previous_from_base;
     Join({id - 1, id, added.previous_from_base, added.covariance.inverse(), !added.joined});
   }
   if (!options_.enabled) return false;
@@ -65,17 +65,22 @@ bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
 
 void LoopCloser::Load(GraphMemory memory) {
   *this = LoopCloser(options_);
-  for (auto& keyframe : memory.keyframes) Enter(std::move(keyframe));
+  keyframes_ = std::move(memory.keyframes);
   poses_ = std::move(memory.poses);
-  for (const GraphConstraint& constraint : memory.constraints) Join(constraint);
-  anchors_ = std::move(memory.anchors);
+  JoinOnly(memory.constraints);
+  for (const auto& [id, pose] : memory.anchors) {
+    if (keyframes_.count(id) > 0) anchors_[id] = pose;
+  }
+  submaps_ = std::move(memory.submaps);
+  next_to_release_ = memory.next_to_release;
   closures_since_optimization_ = memory.closures_since_optimization;
 }
 
 void LoopCloser::Enter(std::shared_ptr<const Keyframe> keyframe) {
-  keyframes_.push_back(std::move(keyframe));
-  links_.emplace_back();
-  ExtendSubmaps();
+  const int id = keyframe->id;
+  keyframes_[id] = std::move(keyframe);
+  links_[id] = {};
+  ExtendSubmaps(id);
 }
 
 /// Makes two keyframes neighbours, as far from one another as they may have drifted.
@@ -83,32 +88,32 @@ void LoopCloser::Join(const GraphConstraint& constraint) {
   constexpr double kRecognised = 0.5;  // [m]
   const auto [from, to] = std::make_pair(constraint.from, constraint.to);
   const double way =
-      constraint.closes_loop() ? kRecognised : keyframes_[to]->way - keyframes_[from]->way;
+      constraint.closes_loop() ? kRecognised : keyframes_.at(to)->way - keyframes_.at(from)->way;
   const int index = static_cast<int>(constraints_.size());
-  links_[from].push_back({to, index, way});
-  links_[to].push_back({from, index, way});
+  links_.at(from).push_back({to, index, way});
+  links_.at(to).push_back({from, index, way});
   constraints_.push_back(constraint);
   closures_ += constraint.closes_loop() ? 1 : 0;
 }
 
 /// Forgets all other constraints.
 void LoopCloser::JoinOnly(const std::vector<GraphConstraint>& constraints) {
-  links_.assign(keyframes_.size(), {});
+  links_.clear();
+  for (const auto& [id, keyframe] : keyframes_) links_[id] = {};
   constraints_.clear();
   closures_ = 0;
   for (const GraphConstraint& constraint : constraints) Join(constraint);
 }
 
-void LoopCloser::ExtendSubmaps() {
-  const int id = static_cast<int>(keyframes_.size()) - 1;
-  const Keyframe& keyframe = *keyframes_[id];
+void LoopCloser::ExtendSubmaps(int id) {
+  const Keyframe& keyframe = *keyframes_.at(id);
   const bool begins =
       submaps_.empty() || !keyframe.joined ||
-      keyframe.way - keyframes_[submaps_.rbegin()->second.begin]->way > 0.5 * options_.submap_way;
+      keyframe.way - WayAt(submaps_.rbegin()->second.begin) > 0.5 * options_.submap_way;
   for (auto submap = submaps_.rbegin(); submap != submaps_.rend(); ++submap) {
-    Range& range = submap->second;
+    KeyframeRange& range = submap->second;
     if (range.end != id) break;
-    if (keyframe.joined && keyframe.way - keyframes_[range.begin]->way <= options_.submap_way) {
+    if (keyframe.joined && keyframe.way - WayAt(range.begin) <= options_.submap_way) {
       range.end = id + 1;
     }
   }
@@ -120,9 +125,9 @@ Submap& LoopCloser::GetSubmap(int id) {
   CachedSubmap& cached = cache_[id];
   cached.used = ++use_count_;
   if (!cached.submap) {
-    const Range range = submaps_.at(id);
-    const std::vector<std::shared_ptr<const Keyframe>> keyframes(keyframes_.begin() + range.begin,
-                                                                 keyframes_.begin() + range.end);
+    const KeyframeRange range = submaps_.at(id);
+    std::vector<std::shared_ptr<const Keyframe>> keyframes;
+    for (int i = range.begin; i < range.end; ++i) keyframes.push_back(keyframes_.at(i));
     cached.submap = std::make_unique<Submap>(keyframes, ChainOf(keyframes), options_.submap);
   }
   if (static_cast<int>(cache_.size()) > options_.max_cached_submaps) {
@@ -136,7 +141,8 @@ Submap& LoopCloser::GetSubmap(int id) {
 
 /// Keyframes of former visits near a keyframe and the submaps that hold them, nearest first.
 std::vector<std::pair<int, int>> LoopCloser::Candidates(int id) const {
-  const Keyframe& keyframe = *keyframes_[id];
+  const double way = WayAt(id);
+  const Eigen::Vector2d place = poses_.at(id).translation();
   struct Candidate {
     double distance;
     int near_id;
@@ -144,14 +150,16 @@ std::vector<std::pair<int, int>> LoopCloser::Candidates(int id) const {
   };
   std::vector<Candidate> found;
   for (const auto& [submap_id, range] : submaps_) {
-    if (keyframe.way - keyframes_[range.end - 1]->way < options_.min_loop_way) break;
+    if (way - WayAt(range.end - 1) < options_.min_loop_way) break;
     Candidate best{std::numeric_limits<double>::infinity(), 0, submap_id};
-    for (int i = range.begin; i < range.end; ++i) {
-      if (keyframes_[i]->points.empty()) continue;
-      const double distance = (poses_[i].translation() - poses_[id].translation()).norm();
+    auto pose = poses_.find(range.begin);
+    for (auto kept = keyframes_.find(range.begin); kept != keyframes_.end(); ++kept, ++pose) {
+      if (kept->first >= range.end) break;
+      if (kept->second->points.empty()) continue;
+      const double distance = (pose->second.translation() - place).norm();
       if (distance < best.distance) {
         best.distance = distance;
-        best.near_id = i;
+        best.near_id = kept->first;
       }
     }
     if (best.distance < options_.max_distance + options_.max_window) found.push_back(best);
@@ -160,8 +168,10 @@ std::vector<std::pair<int, int>> LoopCloser::Candidates(int id) const {
                    [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
   std::vector<std::pair<int, int>> chosen;
   for (const Candidate& c : found) {
+    const KeyframeRange& range = submaps_.at(c.submap_id);
     const bool overlaps = std::any_of(chosen.begin(), chosen.end(), [&](const auto& other) {
-      return std::abs(other.second - c.submap_id) <= 1;
+      const KeyframeRange& other_range = submaps_.at(other.second);
+      return range.begin < other_range.end && other_range.begin < range.end;
     });
     if (overlaps) continue;
     chosen.push_back({c.near_id, c.submap_id});
@@ -173,13 +183,14 @@ std::vector<std::pair<int, int>> LoopCloser::Candidates(int id) const {
 LoopQuery LoopCloser::MakeQuery(int id, double way) const {
   LoopQuery query;
   Pose2 base_from_keyframe;
-  for (int i = id; i >= 0 && keyframes_[id]->way - keyframes_[i]->way <= way; --i) {
-    const std::vector<SurfacePoint> points = ToSurfacePoints(*keyframes_[i], base_from_keyframe);
+  for (int i = id; keyframes_.count(i) > 0 && WayAt(id) - WayAt(i) <= way; --i) {
+    const Keyframe& keyframe = *keyframes_.at(i);
+    const std::vector<SurfacePoint> points = ToSurfacePoints(keyframe, base_from_keyframe);
     query.points.insert(query.points.end(), points.begin(), points.end());
-    if (!keyframes_[i]->joined) break;
-    base_from_keyframe = base_from_keyframe * keyframes_[i]->previous_from_base.Inverse();
+    if (!keyframe.joined) break;
+    base_from_keyframe = base_from_keyframe * keyframe.previous_from_base.Inverse();
   }
-  query.edges = DistinctEdges(keyframes_[id]->edges, options_.submap.edge_map);
+  query.edges = DistinctEdges(keyframes_.at(id)->edges, options_.submap.edge_map);
   return query;
 }
 
@@ -190,12 +201,12 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
       std::min(options_.max_window, options_.min_window + options_.window_per_way * way);
   const double half_angle =
       std::min(options_.max_angle, options_.min_angle + options_.angle_per_way * way);
-  const double distance = (poses_[near_id].translation() - poses_[id].translation()).norm();
+  const double distance = (poses_.at(near_id).translation() - poses_.at(id).translation()).norm();
   if (distance > options_.max_distance + half) return std::nullopt;
   Submap& submap = GetSubmap(submap_id);
   const Pose2& submap_from_near =
       submap.submap_from_keyframes()[near_id - submaps_.at(submap_id).begin];
-  const Pose2 expected = submap_from_near * (poses_[near_id].Inverse() * poses_[id]);
+  const Pose2 expected = submap_from_near * (poses_.at(near_id).Inverse() * poses_.at(id));
   const bool track = half < options_.track_window;
   const std::optional<LoopMatch> match =
       track ? TrackInSubmap(MakeQuery(id, 0.0), submap, expected, options_.matcher)
@@ -230,12 +241,15 @@ void LoopCloser::Optimize(const std::vector<GraphConstraint>& closures) {
   const bool all = surprise || closures_since_optimization_ >=
                                    std::max(kMaxClosures, this->closures() / kMaxShare);
   if (all) closures_since_optimization_ = 0;
-  const int count = static_cast<int>(poses_.size());
-  OptimizeGraph(constraints_, all ? 1 : std::max(1, count - kRecent), options_.graph, &poses_);
+  const int end = poses_.rbegin()->first + 1;
+  OptimizeGraph(constraints_, all ? 1 : std::max(1, end - kRecent), options_.graph, &poses_);
   if (!all) return;
   if (TakeBack()) OptimizeGraph(constraints_, 1, options_.graph, &poses_);
-  for (const auto& [id, pose] : anchors_) poses_[id] = MapFromBase(pose, poses_);
+  for (const auto& [id, pose] : anchors_) {
+    if (keyframes_.count(id) > 0) poses_.at(id) = MapFromBase(pose, poses_);
+  }
   LeaveOutKnown();
+  LetGo();
 }
 
 bool LoopCloser::Contradicted(const GraphConstraint& constraint, double deviation) const {
@@ -257,9 +271,9 @@ bool LoopCloser::TakeBack() {
 /// which nothing is left.
 void LoopCloser::ReleaseKnown() {
   const KnownPlaces places(keyframes_, constraints_, links_, anchors_, options_.known_places);
-  const double way = keyframes_.back()->way - options_.query_way;
-  for (; keyframes_[next_to_release_]->way < way; ++next_to_release_) {
-    std::shared_ptr<const Keyframe>& keyframe = keyframes_[next_to_release_];
+  const double way = keyframes_.rbegin()->second->way - options_.query_way;
+  for (; WayAt(next_to_release_) < way; ++next_to_release_) {
+    std::shared_ptr<const Keyframe>& keyframe = keyframes_.at(next_to_release_);
     if (keyframe->points.empty() || !places.AnchorOf(next_to_release_)) continue;
     auto released = std::make_shared<Keyframe>(*keyframe);
     released->points = std::vector<KeptPoint>();
@@ -267,11 +281,11 @@ void LoopCloser::ReleaseKnown() {
     keyframe = std::move(released);
   }
   for (auto submap = submaps_.begin(); submap != submaps_.end();) {
-    const Range range = submap->second;
+    const KeyframeRange range = submap->second;
     const bool is_left =
         range.end > next_to_release_ ||
-        std::any_of(keyframes_.begin() + range.begin, keyframes_.begin() + range.end,
-                    [](const auto& keyframe) { return !keyframe->points.empty(); });
+        std::any_of(keyframes_.find(range.begin), keyframes_.lower_bound(range.end),
+                    [](const auto& kept) { return !kept.second->points.empty(); });
     submap = is_left ? std::next(submap) : submaps_.erase(submap);
   }
 }
@@ -280,12 +294,46 @@ void LoopCloser::ReleaseKnown() {
 void LoopCloser::LeaveOutKnown() {
   const KnownPlaces places(keyframes_, constraints_, links_, anchors_, options_.known_places);
   const std::size_t before = anchors_.size();
-  for (int id = 1; id < next_to_release_; ++id) {
-    if (anchors_.count(id) > 0 || !places.IsNeedless(id)) continue;
+  for (const auto& [id, keyframe] : keyframes_) {
+    if (id == 0 || anchors_.count(id) > 0) continue;
+    if (id >= next_to_release_) break;
+    if (!places.IsNeedless(id)) continue;
     const int anchor = *places.AnchorOf(id);
-    anchors_[id] = {anchor, poses_[anchor].Inverse() * poses_[id]};
+    anchors_[id] = {anchor, poses_.at(anchor).Inverse() * poses_.at(id)};
   }
   if (anchors_.size() > before) JoinOnly(Without(anchors_, constraints_));
+}
+
+/// Lets go the keyframes that were left out, but those within a submap.
+void LoopCloser::LetGo() {
+  const int latest = keyframes_.rbegin()->first;
+  for (const auto& [id, pose] : anchors_) {
+    const auto kept = keyframes_.find(id);
+    if (kept == keyframes_.end() || IsInSubmap(id)) continue;
+    keyframes_.erase(kept);
+    poses_.erase(id);
+    links_.erase(id);
+    let_go_.push_back({id, latest});
+  }
+}
+
+bool LoopCloser::IsInSubmap(int id) const {
+  return std::any_of(submaps_.begin(), submaps_.end(), [&](const auto& submap) {
+    return submap.second.begin <= id && id < submap.second.end;
+  });
+}
+
+Anchors LoopCloser::let_go() const {
+  Anchors anchors;
+  for (const LetGoKeyframe& keyframe : let_go_) anchors[keyframe.id] = anchors_.at(keyframe.id);
+  return anchors;
+}
+
+void LoopCloser::ForgetLetGo(int keyframe) {
+  while (!let_go_.empty() && let_go_.front().latest <= keyframe) {
+    anchors_.erase(let_go_.front().id);
+    let_go_.pop_front();
+  }
 }
 
 }  // namespace scan_image_slam

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -163,7 +164,7 @@ std::shared_ptr<const Keyframe> Mapper::Keep(const FusedModel& model, const Matc
   auto keyframe = std::make_shared<Keyframe>(MakeKeyframe(model, match, options_.keyframe));
   const Pose2 map_from_base = map_from_start_ * match.start_from_base();
   keyframe->previous_from_base = Attach(map_from_base).keyframe_from_base;
-  keyframe->id = static_cast<int>(keyframe_poses_.size());
+  keyframe->id = NextKeyframe();
   keyframe->joined = joined_ && match.start_stamp == kept_start_stamp_;
   if (keyframe->id > 0) {
     way_ += keyframe->joined ? keyframe->previous_from_base.translation().norm() : kUnknownWay;
@@ -181,7 +182,7 @@ std::shared_ptr<const Keyframe> Mapper::Keep(const FusedModel& model, const Matc
   joined_ = true;
   kept_start_stamp_ = match.start_stamp;
   kept_covariance_ = match.covariance;
-  keyframe_poses_.push_back(map_from_base);
+  keyframe_poses_[keyframe->id] = map_from_base;
   return keyframe;
 }
 
@@ -191,11 +192,10 @@ std::shared_ptr<const Keyframe> Mapper::AddModel(const FusedModel& model,
   const Pose2 map_from_base = map_from_start_ * match.start_from_base();
   const bool keep = WorthKeeping(match);
   if (WorthDrawing(match, map_from_base)) {
-    const int next_keyframe = static_cast<int>(keyframe_poses_.size());
     // First, as it throws if the map is as large as it may be.
     drawn_.Add({std::make_shared<const GridScan>(
                     MakeGridScan(model, match.sweep_correction, options_.grid)),
-                keep ? AttachedPose{next_keyframe, Pose2()} : Attach(map_from_base),
+                keep ? AttachedPose{NextKeyframe(), Pose2()} : Attach(map_from_base),
                 map_from_base});
     drawn_stamp_ = match.stamp;
     map_from_drawn_ = map_from_base;
@@ -226,16 +226,25 @@ std::optional<Sighting> Mapper::Look(const FusedModel& model, const MatchedMotio
 
 AttachedPose Mapper::Attach(const Pose2& map_from_base) const {
   if (keyframe_poses_.empty()) return {-1, map_from_base};
-  return {static_cast<int>(keyframe_poses_.size()) - 1,
-          keyframe_poses_.back().Inverse() * map_from_base};
+  const auto& [id, map_from_keyframe] = *keyframe_poses_.rbegin();
+  return {id, map_from_keyframe.Inverse() * map_from_base};
 }
 
-void Mapper::Correct(const std::vector<Pose2>& keyframe_poses) {
-  if (keyframe_poses.empty() || keyframe_poses.size() > keyframe_poses_.size()) return;
-  const Pose2 moved = keyframe_poses.back() * keyframe_poses_[keyframe_poses.size() - 1].Inverse();
-  std::copy(keyframe_poses.begin(), keyframe_poses.end(), keyframe_poses_.begin());
-  for (std::size_t i = keyframe_poses.size(); i < keyframe_poses_.size(); ++i) {
-    keyframe_poses_[i] = moved * keyframe_poses_[i];
+int Mapper::NextKeyframe() const {
+  return keyframe_poses_.empty() ? 0 : keyframe_poses_.rbegin()->first + 1;
+}
+
+void Mapper::Correct(GraphPoses keyframe_poses, const Anchors& let_go) {
+  if (keyframe_poses.empty() || keyframe_poses.rbegin()->first >= NextKeyframe()) return;
+  const auto [last, map_from_last] = *keyframe_poses.rbegin();
+  const Pose2 moved = map_from_last * keyframe_poses_.at(last).Inverse();
+  for (auto later = keyframe_poses_.upper_bound(last); later != keyframe_poses_.end(); ++later) {
+    keyframe_poses.emplace_hint(keyframe_poses.end(), later->first, moved * later->second);
+  }
+  keyframe_poses_ = std::move(keyframe_poses);
+  if (!let_go.empty()) {
+    for (TrackedPose& tracked : tracked_) tracked.pose = Reattached(tracked.pose, let_go);
+    drawn_.Reattach(let_go);
   }
   if (growing()) {
     MoveRobot(moved);
@@ -278,8 +287,9 @@ void Mapper::Load(const MapState& state, MapUse use) {
   keyframe_poses_ = state.graph.poses;
   loaded_chain_ = state.chain;
   drawn_.Load(state.drawn);
+  drawn_.Reattach(LetGo(state.graph));
   drawn_.BeginRedraw();  // what the graph knew better when it was saved
-  if (!state.graph.keyframes.empty()) way_ = state.graph.keyframes.back()->way;
+  if (!state.graph.keyframes.empty()) way_ = state.graph.keyframes.rbegin()->second->way;
   localize_ = use == MapUse::kLocalize;
   lost_ = !keyframe_poses_.empty();
 }

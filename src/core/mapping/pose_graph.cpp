@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -80,18 +79,18 @@ GraphConstraint Chained(const GraphConstraint& first, const GraphConstraint& sec
   return chained;
 }
 
-double SquaredResidual(const GraphConstraint& constraint, const std::vector<Pose2>& nodes) {
+double SquaredResidual(const GraphConstraint& constraint, const GraphPoses& nodes) {
   const Eigen::Vector3d d =
-      Difference(constraint.from_from_to, nodes[constraint.from], nodes[constraint.to]);
+      Difference(constraint.from_from_to, nodes.at(constraint.from), nodes.at(constraint.to));
   return d.dot(constraint.information * d);
 }
 
 void OptimizeGraph(const std::vector<GraphConstraint>& constraints, int first_free,
-                   const GraphOptions& options, std::vector<Pose2>* nodes) {
+                   const GraphOptions& options, GraphPoses* nodes) {
   first_free = std::max(1, first_free);
   std::map<int, Eigen::Vector3d> values;  // of the nodes that take part
   const auto value = [&](int node) {
-    return values.try_emplace(node, (*nodes)[node].coordinates()).first->second.data();
+    return values.try_emplace(node, nodes->at(node).coordinates()).first->second.data();
   };
   ceres::Problem problem;
   for (const GraphConstraint& constraint : constraints) {
@@ -112,7 +111,7 @@ void OptimizeGraph(const std::vector<GraphConstraint>& constraints, int first_fr
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   for (const auto& [node, pose] : values) {
-    (*nodes)[node] = {pose.x(), pose.y(), NormalizeAngle(pose.z())};
+    nodes->at(node) = {pose.x(), pose.y(), NormalizeAngle(pose.z())};
   }
 }
 

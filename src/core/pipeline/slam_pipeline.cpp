@@ -71,7 +71,9 @@ void SlamPipeline::Process(const LaserScan& scan) {
   });
   if (keyframe) {
     run_(Stage::kLoop, [&] {
-      if (back_end_.Add(keyframe)) mapper_.Correct(loop_closer().poses());
+      if (!back_end_.Add(keyframe)) return;
+      mapper_.Correct(loop_closer().poses(), loop_closer().let_go());
+      back_end_.ForgetLetGo(keyframe->id);
     });
   }
   if (sighting) {

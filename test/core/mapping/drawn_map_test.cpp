@@ -81,8 +81,8 @@ TEST(DrawnMap, AScanThatMovesCountsWhereItLies) {
   }
   const Pose2 moved{10.0, 0.0, 0.0};
   map.BeginRedraw();
-  EXPECT_FALSE(map.Redraw({moved}, 1));
-  EXPECT_TRUE(map.Redraw({moved}, kAll));
+  EXPECT_FALSE(map.Redraw({{0, moved}}, 1));
+  EXPECT_TRUE(map.Redraw({{0, moved}}, kAll));
   for (DrawnScan& scan : scans) scan.map_from_base = moved * scan.map_from_base;
   ExpectSameOccupancy(map.grid(), GridOf(scans));
   // The place that they have left has room again, the one that they came to is full.

@@ -23,7 +23,8 @@ GraphConstraint Motion(int from, int to, const Pose2& motion) {
 
 GraphLinks LinksOf(const std::vector<GraphConstraint>& constraints,
                    const std::vector<double>& lengths) {
-  GraphLinks links(constraints.size() + 1);
+  GraphLinks links;
+  for (int i = 0; i <= static_cast<int>(constraints.size()); ++i) links[i] = {};
   for (int i = 0; i < static_cast<int>(constraints.size()); ++i) {
     links[constraints[i].from].push_back({constraints[i].to, i, lengths[i]});
     links[constraints[i].to].push_back({constraints[i].from, i, lengths[i]});
@@ -80,7 +81,7 @@ TEST(GraphWays, TakesTheShortestWay) {
 }
 
 TEST(GraphWays, WhatNoConstraintJoinsIsInfinitelyFar) {
-  const GraphLinks links(2);
+  const GraphLinks links = {{0, {}}, {1, {}}};
   EXPECT_TRUE(std::isinf(GraphWays(links, 0, {1}).Length(1)));
 }
 

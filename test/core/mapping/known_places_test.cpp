@@ -12,12 +12,12 @@ class FourVisits : public ::testing::Test {
   static constexpr int kPlaces = 3;
   static constexpr int kKeyframes = 4 * kPlaces;
 
-  FourVisits() : links_(kKeyframes) {
+  FourVisits() {
     for (int id = 0; id < kKeyframes; ++id) {
       auto keyframe = std::make_shared<Keyframe>();
       keyframe->id = id;
       if (id < kPlaces) keyframe->points.resize(10);
-      keyframes_.push_back(keyframe);
+      keyframes_[id] = keyframe;
       if (id > 0) Join(id - 1, id, false);
       if (id >= kPlaces) Join(id % kPlaces, id, true);
     }
@@ -45,10 +45,10 @@ class FourVisits : public ::testing::Test {
     return KnownPlaces(keyframes_, constraints_, links_, anchors_, options_);
   }
 
-  std::vector<std::shared_ptr<const Keyframe>> keyframes_;
+  Keyframes keyframes_;
   std::vector<GraphConstraint> constraints_;
   GraphLinks links_;
-  std::map<int, AttachedPose> anchors_;
+  Anchors anchors_;
   KnownPlaceOptions options_;
 };
 
@@ -88,6 +88,10 @@ TEST_F(FourVisits, NeighboursHoldTheGraphTogether) {
   Closure(9).overlap = 0.5;
   EXPECT_FALSE(Places().IsNeedless(10));
   anchors_[9] = {};  // which the graph does without already
+  EXPECT_TRUE(Places().IsNeedless(10));
+  anchors_.clear();
+  EXPECT_FALSE(Places().IsNeedless(10));
+  keyframes_.erase(9);  // was let go, which is for what is known only
   EXPECT_TRUE(Places().IsNeedless(10));
 }
 

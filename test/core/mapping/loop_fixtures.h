@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 namespace scan_image_slam {
 
 /// Keyframes of a drive through a room, whose motions are measured with a steady error.
@@ -65,12 +67,20 @@ inline DriftingDrive Drive(const Room& room, const std::vector<Eigen::Vector2d>&
 }
 
 /// Largest distance of an estimated pose from the true one [m].
-inline double LargestError(const std::vector<Pose2>& poses, const std::vector<Pose2>& truth) {
+inline double LargestError(const GraphPoses& poses, const std::vector<Pose2>& truth) {
   double largest = 0.0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    largest = std::max(largest, (poses[i].translation() - truth[i].translation()).norm());
+  for (const auto& [id, pose] : poses) {
+    largest = std::max(largest, (pose.translation() - truth.at(id).translation()).norm());
   }
   return largest;
+}
+
+inline void ExpectSameBits(const GraphPoses& a, const GraphPoses& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (const auto& [id, pose] : a) {
+    ASSERT_EQ(b.count(id), 1U);
+    EXPECT_EQ(pose.coordinates(), b.at(id).coordinates()) << id;
+  }
 }
 
 /// A corridor of 2 m around a block of 12 m x 6 m; boxes along the walls make places differ.

@@ -27,7 +27,7 @@ class MapperCorrection : public ::testing::Test {
       mapper_.AddMatch(match);
       if (const auto keyframe = mapper_.AddModel(models_.back(), match)) {
         keyframes_.push_back(keyframe);
-        keyframe_poses_.push_back(pose);
+        keyframe_poses_[keyframe->id] = pose;
       }
     }
   }
@@ -38,7 +38,7 @@ class MapperCorrection : public ::testing::Test {
   std::vector<FusedModel> models_;
   std::vector<MatchedMotion> matches_;
   std::vector<std::shared_ptr<const Keyframe>> keyframes_;
-  std::vector<Pose2> keyframe_poses_;
+  GraphPoses keyframe_poses_;
 };
 
 TEST_F(MapperCorrection, KeepsAKeyframeWhereTheRobotHasMoved) {
@@ -55,10 +55,12 @@ TEST_F(MapperCorrection, KeepsAKeyframeWhereTheRobotHasMoved) {
 
 TEST_F(MapperCorrection, MovesEveryPoseWithItsKeyframe) {
   // The second half of the drive is turned about its first keyframe.
-  std::vector<Pose2> corrected = keyframe_poses_;
+  GraphPoses corrected = keyframe_poses_;
   const Pose2 turn = keyframe_poses_[5] * Pose2{0.0, 0.0, 0.1} * keyframe_poses_[5].Inverse();
-  for (std::size_t i = 5; i < corrected.size(); ++i) corrected[i] = turn * corrected[i];
-  mapper_.Correct(corrected);
+  for (auto pose = corrected.find(5); pose != corrected.end(); ++pose) {
+    pose->second = turn * pose->second;
+  }
+  mapper_.Correct(corrected, {});
   const std::vector<MapPose> trajectory = mapper_.Trajectory();
   ASSERT_EQ(trajectory.size(), poses_.size());
   for (std::size_t i = 0; i < poses_.size(); ++i) {
@@ -78,10 +80,10 @@ TEST_F(MapperCorrection, MovesEveryPoseWithItsKeyframe) {
 }
 
 TEST_F(MapperCorrection, LeavesKeyframesThatCameLaterWhereTheyLieToTheLastCorrected) {
-  std::vector<Pose2> corrected(keyframe_poses_.begin(), keyframe_poses_.begin() + 4);
+  GraphPoses corrected(keyframe_poses_.begin(), keyframe_poses_.find(4));
   const Pose2 shift{0.3, -0.2, 0.0};
-  for (Pose2& pose : corrected) pose = shift * pose;
-  mapper_.Correct(corrected);
+  for (auto& [id, pose] : corrected) pose = shift * pose;
+  mapper_.Correct(corrected, {});
   for (const MapPose& pose : mapper_.Trajectory()) {
     const std::size_t i = static_cast<std::size_t>((pose.stamp - kStart) / 25'000'000LL);
     if (i == 0) continue;  // before the first keyframe
@@ -91,15 +93,15 @@ TEST_F(MapperCorrection, LeavesKeyframesThatCameLaterWhereTheyLieToTheLastCorrec
 }
 
 TEST_F(MapperCorrection, TheRedrawnMapIsThatOfTheCorrectedPosesBitForBit) {
-  std::vector<Pose2> corrected;
+  GraphPoses corrected;
   const Pose2 moved{0.4, 0.15, 0.07};
-  for (const Pose2& pose : keyframe_poses_) corrected.push_back(moved * pose);
-  mapper_.Correct(corrected);
+  for (const auto& [id, pose] : keyframe_poses_) corrected[id] = moved * pose;
+  mapper_.Correct(corrected, {});
   EXPECT_FALSE(mapper_.Redraw(3));  // a few at a time
   EXPECT_TRUE(mapper_.Redraw(kAll));
 
   Mapper fresh{MapperOptions()};
-  fresh.SetPose(corrected.front());
+  fresh.SetPose(corrected.at(0));
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     MatchedMotion match = matches_[i];
     match.odom_from_base.reset();
@@ -111,10 +113,56 @@ TEST_F(MapperCorrection, TheRedrawnMapIsThatOfTheCorrectedPosesBitForBit) {
 }
 
 TEST_F(MapperCorrection, IgnoresPosesOfMoreKeyframesThanThereAre) {
-  std::vector<Pose2> foreign(keyframe_poses_.size() + 1, Pose2{9, 9, 0});
-  mapper_.Correct(foreign);
-  mapper_.Correct({});
+  GraphPoses foreign;
+  for (int id = 0; id <= static_cast<int>(keyframe_poses_.size()); ++id) foreign[id] = {9, 9, 0};
+  mapper_.Correct(foreign, {});
+  mapper_.Correct({}, {});
   EXPECT_NEAR(mapper_.Trajectory().back().map_from_base.x, poses_.back().x, 1e-9);
+}
+
+TEST_F(MapperCorrection, WhatHangsOnAKeyframeThatWasLetGoHangsOnItsAnchor) {
+  const Pose2 two_from_five = keyframe_poses_[2].Inverse() * keyframe_poses_[5];
+  GraphPoses left = keyframe_poses_;
+  left.erase(5);
+  mapper_.Correct(left, {{5, {2, two_from_five}}});
+  const std::vector<MapPose> trajectory = mapper_.Trajectory();
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    EXPECT_NEAR((trajectory[i].map_from_base.translation() - poses_[i].translation()).norm(), 0.0,
+                1e-9);
+  }
+  // The next keyframe has a number of its own, and who moves the anchor moves all.
+  const MatchedMotion next =
+      MatchAt(kStart, kStart + 2'000'000'000LL, poses_.front().Inverse() * Pose2{2.9, 0.5, 0.0});
+  mapper_.AddMatch(next);
+  const auto keyframe = mapper_.AddModel(models_.back(), next);
+  ASSERT_NE(keyframe, nullptr);
+  EXPECT_EQ(keyframe->id, 11);
+  left[2] = Pose2{0.0, 0.3, 0.0} * left[2];
+  mapper_.Correct(left, {{5, {2, two_from_five}}});
+  EXPECT_TRUE(mapper_.Redraw(kAll));
+  int moved = 0;
+  for (const MapPose& pose : mapper_.Trajectory()) moved += pose.map_from_base.y > 0.79 ? 1 : 0;
+  EXPECT_EQ(moved, 8) << "four scans of keyframe 2 and four of keyframe 5";
+  moved = 0;
+  for (const DrawnScan& drawn : mapper_.State().drawn) {
+    EXPECT_NE(drawn.pose.keyframe, 5);
+    moved += drawn.map_from_base.y > 0.79 ? 1 : 0;
+  }
+  EXPECT_EQ(moved, 8);
+}
+
+TEST_F(MapperCorrection, AStateMayHoldScansOfAKeyframeThatWasLetGo) {
+  MapState state = mapper_.State();
+  for (const auto& keyframe : keyframes_) state.graph.keyframes[keyframe->id] = keyframe;
+  state.graph.poses = keyframe_poses_;
+  state.graph.keyframes.erase(5);
+  state.graph.poses.erase(5);
+  state.graph.anchors[5] = {2, keyframe_poses_[2].Inverse() * keyframe_poses_[5]};
+  Mapper loaded{MapperOptions()};
+  loaded.Load(state, MapUse::kContinue);
+  EXPECT_TRUE(loaded.Redraw(kAll));
+  ExpectSameOccupancy(loaded.grid(), mapper_.grid());
+  for (const DrawnScan& drawn : loaded.State().drawn) EXPECT_NE(drawn.pose.keyframe, 5);
 }
 
 TEST(MapperTrajectory, ALongOneIsThinnedEvenly) {

@@ -50,14 +50,14 @@ TEST(StateFile, HoldsEveryNumberBitForBit) {
 
 TEST(StateFile, AnEmptyMapIsAState) {
   const std::string bytes = EncodeState(MapState());
-  EXPECT_EQ(bytes.size(), kContent + 5 * 4 + 2 * 8 + 3 * 8);  // counts, closures, the chain
+  EXPECT_EQ(bytes.size(), kContent + 7 * 4 + 2 * 8 + 3 * 8);  // counts and indices, the chain
   ExpectSame(DecodeState(bytes), MapState());
 }
 
 TEST(StateFile, BeginsAsItIsDescribed) {
   const std::string bytes = EncodeState(DistinctNumbers().State());
-  EXPECT_EQ(bytes.substr(0, 12), std::string("SISTATE\n\2\0\0\0", 12));
-  EXPECT_EQ(Forged(bytes, 8, 2), bytes) << "the check sum is that of its definition";
+  EXPECT_EQ(bytes.substr(0, 12), std::string("SISTATE\n\3\0\0\0", 12));
+  EXPECT_EQ(Forged(bytes, 8, 3), bytes) << "the check sum is that of its definition";
   EXPECT_EQ(bytes.substr(kContent, 4), std::string("\3\0\0\0", 4)) << "three keyframes";
 }
 
@@ -85,16 +85,17 @@ TEST(StateFile, WithAnyBitTurnedIsRefused) {
 TEST(StateFile, OfAnotherKindOrVersionIsRefusedAsSuch) {
   EXPECT_EQ(Refusal("P5\n3 3\n255\n........."), "at byte 0: this is no state of a map");
   EXPECT_EQ(Refusal(""), "at byte 0: this is no state of a map");
-  const std::string newer = Forged(EncodeState(MapState()), 8, 3);
-  EXPECT_EQ(Refusal(newer), "at byte 8: its version is 3, this program reads version 2");
+  const std::string newer = Forged(EncodeState(MapState()), 8, 4);
+  EXPECT_EQ(Refusal(newer), "at byte 8: its version is 4, this program reads version 3");
 }
 
 TEST(StateFile, CountsThatTheBytesCannotHoldAreRefusedBeforeAnythingIsMade) {
   const std::string bytes = EncodeState(DistinctNumbers().State());
   EXPECT_EQ(Refusal(Forged(bytes, kContent, 0xFFFFFFFFU)),
             "at byte 24: 4294967295 keyframes are more than the data can hold");
-  // Stamp, way, joined, motion, covariance and laser of the first keyframe come before its points.
-  const std::size_t points = kContent + 4 + 8 + 8 + 1 + 3 * 8 + 9 * 8 + 2 * 8;
+  // Number, stamp, way, joined, motion, covariance and laser of the first keyframe come before its
+  // points.
+  const std::size_t points = kContent + 4 + 4 + 8 + 8 + 1 + 3 * 8 + 9 * 8 + 2 * 8;
   EXPECT_EQ(
       Refusal(Forged(bytes, points, 1U << 31)),
       "at byte " + std::to_string(points) + ": 2147483648 points are more than the data can hold");
@@ -107,20 +108,43 @@ TEST(StateFile, CountsThatTheBytesCannotHoldAreRefusedBeforeAnythingIsMade) {
 
 TEST(StateFile, WhatRefersToNothingIsRefused) {
   MapState state = DistinctNumbers().State();
-  state.drawn.back().pose.keyframe = 3;
-  EXPECT_NE(Refusal(EncodeState(state)).find("the index 3 is not between -1 and 2"),
-            std::string::npos);
-  state = DistinctNumbers().State();
-  state.graph.constraints.front().to = 3;
-  EXPECT_NE(Refusal(EncodeState(state)).find("the index 3 is not between 1 and 2"),
-            std::string::npos);
+  const auto refuses = [&state](int number) {
+    const std::string reason = "there is no keyframe " + std::to_string(number) + " to refer to";
+    const bool found = Refusal(EncodeState(state)).find(reason) != std::string::npos;
+    state = DistinctNumbers().State();
+    return found;
+  };
+  state.drawn.back().pose.keyframe = 4;
+  EXPECT_TRUE(refuses(4));
+  state.drawn.back().pose.keyframe = 1;
+  EXPECT_EQ(Refusal(EncodeState(state)), "") << "it was let go, and has an anchor";
+  state.graph.constraints.front().to = 1;
+  EXPECT_TRUE(refuses(1));
   state.graph.constraints.front().to = 0;
-  EXPECT_NE(Refusal(EncodeState(state)), "") << "a keyframe is not tied to itself";
+  EXPECT_TRUE(refuses(0)) << "a keyframe is not tied to itself";
+  state.graph.anchors[3].keyframe = 3;
+  EXPECT_TRUE(refuses(3)) << "a keyframe does not hang on itself";
+  state.graph.anchors[3].keyframe = 1;
+  EXPECT_TRUE(refuses(1));
+  state.graph.submaps[4].end = 2;
+  EXPECT_TRUE(refuses(1)) << "a submap has no gap";
+  state.graph.next_to_release = 0;
+  EXPECT_TRUE(refuses(1)) << "what was let go was judged before";
+}
+
+TEST(StateFile, KeyframesComeInTheirOrder) {
+  MapState state = DistinctNumbers().State();
+  auto keyframe = std::make_shared<Keyframe>(*state.graph.keyframes[2]);
+  keyframe->id = 0;
+  state.graph.keyframes[2] = keyframe;
+  EXPECT_NE(Refusal(EncodeState(state)).find("the index 0 is not between 1 and"),
+            std::string::npos);
   state = DistinctNumbers().State();
-  state.graph.anchors[2].keyframe = 2;
-  EXPECT_NE(Refusal(EncodeState(state)).find("the index 2 is not between -1 and 1"),
+  state.graph.keyframes.erase(0);
+  state.graph.poses.erase(0);
+  EXPECT_NE(Refusal(EncodeState(state)).find("the index 2 is not between 0 and 0"),
             std::string::npos)
-      << "a keyframe does not hang on itself";
+      << "the first is never let go";
 }
 
 TEST(StateFile, NumbersThatAreNoneAreRefused) {

@@ -8,18 +8,20 @@
 
 namespace scan_image_slam {
 
-/// A state of three keyframes in which every number differs from all others.
+/// A state of three keyframes in which every number differs from all others; a fourth was let go.
 class DistinctNumbers {
  public:
   MapState State() {
     MapState state;
-    for (int id = 0; id < 3; ++id) {
-      state.graph.keyframes.push_back(NextKeyframe(id));
-      state.graph.poses.push_back(NextPose());
+    for (const int id : {0, 2, 3}) {
+      state.graph.keyframes[id] = NextKeyframe(id);
+      state.graph.poses[id] = NextPose();
     }
-    state.graph.constraints = {NextConstraint(0, 1), NextConstraint(1, 2), NextConstraint(0, 2)};
+    state.graph.constraints = {NextConstraint(0, 2), NextConstraint(2, 3), NextConstraint(0, 3)};
     state.graph.constraints.back().robust = true;
-    state.graph.anchors = {{1, {0, NextPose()}}, {2, {1, NextPose()}}};
+    state.graph.anchors = {{1, {0, NextPose()}}, {3, {2, NextPose()}}};
+    state.graph.submaps = {{4, {0, 1}}, {6, {2, 4}}};
+    state.graph.next_to_release = 2;
     state.graph.closures_since_optimization = 7;
     for (int keyframe = -1; keyframe < 2; ++keyframe) state.drawn.push_back(NextDrawn(keyframe));
     state.chain = {1'700'000'000'000'000'111LL, 1'700'000'000'000'000'222LL, NextPose()};
@@ -57,7 +59,7 @@ class DistinctNumbers {
     keyframe->id = id;
     keyframe->stamp = 1'700'000'000'123'456'789LL + id;
     keyframe->way = Next();
-    keyframe->joined = id != 1;
+    keyframe->joined = id != 2;
     keyframe->previous_from_base = NextPose();
     keyframe->covariance = NextMatrix<Eigen::Matrix3d>();
     keyframe->laser = NextMatrix<Eigen::Vector2d>();
@@ -120,9 +122,10 @@ inline void ExpectSame(const Keyframe& a, const Keyframe& b) {
 inline void ExpectSame(const GraphMemory& a, const GraphMemory& b) {
   ASSERT_EQ(a.keyframes.size(), b.keyframes.size());
   ASSERT_EQ(a.poses.size(), b.poses.size());
-  for (std::size_t i = 0; i < a.keyframes.size(); ++i) {
-    ExpectSame(*a.keyframes[i], *b.keyframes[i]);
-    ExpectSame(a.poses[i], b.poses[i]);
+  for (const auto& [id, keyframe] : a.keyframes) {
+    ASSERT_EQ(b.keyframes.count(id), 1U);
+    ExpectSame(*keyframe, *b.keyframes.at(id));
+    ExpectSame(a.poses.at(id), b.poses.at(id));
   }
   ASSERT_EQ(a.constraints.size(), b.constraints.size());
   for (std::size_t i = 0; i < a.constraints.size(); ++i) {
@@ -138,6 +141,12 @@ inline void ExpectSame(const GraphMemory& a, const GraphMemory& b) {
     EXPECT_EQ(b.anchors.at(id).keyframe, pose.keyframe);
     ExpectSame(b.anchors.at(id).keyframe_from_base, pose.keyframe_from_base);
   }
+  ASSERT_EQ(a.submaps.size(), b.submaps.size());
+  for (const auto& [number, range] : a.submaps) {
+    EXPECT_EQ(b.submaps.at(number).begin, range.begin);
+    EXPECT_EQ(b.submaps.at(number).end, range.end);
+  }
+  EXPECT_EQ(a.next_to_release, b.next_to_release);
   EXPECT_EQ(a.closures_since_optimization, b.closures_since_optimization);
 }
 

@@ -70,7 +70,7 @@ TEST_F(MapLoading, GoesOnOnceTheRobotIsFound) {
   EXPECT_LT(ErrorInMap(after, LaterDrive()), 0.04);
   const MapState grown = after.pipeline.Save();
   EXPECT_GT(grown.graph.keyframes.size(), saved_.graph.keyframes.size() + 3);
-  EXPECT_FALSE(grown.graph.keyframes[saved_.graph.keyframes.size()]->joined);
+  EXPECT_FALSE(grown.graph.keyframes.at(static_cast<int>(saved_.graph.keyframes.size()))->joined);
   EXPECT_GT(grown.drawn.size(), saved_.drawn.size());
   EXPECT_EQ(after.pipeline.mapper().Trajectory().size(), after.results.size() - Lost(after))
       << "the path of this drive alone";

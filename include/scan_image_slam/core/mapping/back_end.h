@@ -22,6 +22,9 @@ class BackEnd {
   /// As LoopCloser::Add.
   bool Add(std::shared_ptr<const Keyframe> keyframe);
 
+  /// As LoopCloser::ForgetLetGo.
+  void ForgetLetGo(int keyframe) { loop_closer_.ForgetLetGo(keyframe); }
+
   /// As Localizer::Look, in the map as it is now; nothing while there is none.
   std::optional<Location> Look(const Sighting& sighting);
 

@@ -18,7 +18,8 @@ namespace scan_image_slam {
 
 /// What the back-end knows after its last optimisation.
 struct GraphState {
-  std::vector<Pose2> poses;                   ///< map_from_base of the first keyframes
+  GraphPoses poses;                           ///< of the first keyframes
+  Anchors let_go;                             ///< since the news before were taken
   std::vector<std::pair<int, int>> closures;  ///< keyframes that see the same place
 };
 
@@ -59,16 +60,22 @@ class BackEndThread {
   int waiting() const;
 
  private:
-  using Job = std::function<BackEndNews(BackEnd&)>;
-  void Post(Job job, bool new_map);
+  using Work = std::function<BackEndNews(BackEnd&)>;
+  struct Job {
+    Work work;
+    int map_number = 0;
+    int taken = -1;  ///< latest keyframe of the news that had been taken
+  };
+  void Post(Work work, bool new_map);
   void Run();
 
   BackEnd back_end_;  ///< of the thread alone
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<std::pair<Job, int>> jobs_;  ///< each with the number of its map
+  std::deque<Job> jobs_;
   BackEndNews news_;
   int map_number_ = 0;
+  int taken_ = -1;  ///< latest keyframe of the news that were taken
   bool stop_ = false;
   std::thread thread_;
 };

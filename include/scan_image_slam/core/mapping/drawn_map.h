@@ -29,12 +29,15 @@ class DrawnMap {
   /// Draws all scans of a saved map.
   void Load(const std::vector<DrawnScan>& scans);
 
+  /// Keyframes were let go: their scans hang on the anchors of those.
+  void Reattach(const Anchors& let_go);
+
   /// Makes Redraw look at all scans once more: keyframes have moved.
   void BeginRedraw() { to_redraw_ = next_; }
 
   /// Draws scans anew whose keyframes have moved to these poses, map_from_base, the latest first
   /// and at most so many. Returns true if none is left.
-  bool Redraw(const std::vector<Pose2>& keyframe_poses, int max_scans);
+  bool Redraw(const GraphPoses& keyframe_poses, int max_scans);
 
   /// In the order of time.
   std::vector<DrawnScan> scans() const;

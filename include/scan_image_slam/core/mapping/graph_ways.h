@@ -3,6 +3,7 @@
 #include "scan_image_slam/core/mapping/pose_graph.h"
 
 #include <limits>
+#include <map>
 #include <unordered_map>
 #include <vector>
 
@@ -17,8 +18,8 @@ struct GraphLink {
   double way = 0.0;    ///< length, as a measure of how far both may have drifted apart [m]
 };
 
-/// Constraints by node: element i holds the links of node i.
-using GraphLinks = std::vector<std::vector<GraphLink>>;
+/// Constraints by node: the links of each.
+using GraphLinks = std::map<int, std::vector<GraphLink>>;
 
 /// The shortest ways through a graph from one node to some others (Dijkstra).
 class GraphWays {

@@ -5,6 +5,8 @@
 #include "scan_image_slam/core/matching/matched_motion.h"
 #include "scan_image_slam/core/matching/surface.h"
 
+#include <map>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -31,6 +33,9 @@ struct Keyframe {
   std::vector<KeptPoint> points;  ///< none if the place was known well enough before
   std::vector<ModelEdge> edges;
 };
+
+/// By number; those that were let go are missing.
+using Keyframes = std::map<int, std::shared_ptr<const Keyframe>>;
 
 struct KeyframeOptions {
   double point_spacing = 0.04;  ///< along a wall [m]

@@ -5,8 +5,6 @@
 #include "scan_image_slam/core/mapping/map_state.h"
 #include "scan_image_slam/core/mapping/pose_graph.h"
 
-#include <map>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -23,9 +21,8 @@ struct KnownPlaceOptions {
 /// pose before. A view for the moment of what a LoopCloser holds; it keeps references.
 class KnownPlaces {
  public:
-  KnownPlaces(const std::vector<std::shared_ptr<const Keyframe>>& keyframes,
-              const std::vector<GraphConstraint>& constraints, const GraphLinks& links,
-              const std::map<int, AttachedPose>& anchors, const KnownPlaceOptions& options)
+  KnownPlaces(const Keyframes& keyframes, const std::vector<GraphConstraint>& constraints,
+              const GraphLinks& links, const Anchors& anchors, const KnownPlaceOptions& options)
       : keyframes_(keyframes),
         constraints_(constraints),
         links_(links),
@@ -42,18 +39,18 @@ class KnownPlaces {
 
  private:
   bool Shows(const GraphConstraint& constraint, int id) const;
-  bool IsKnown(int id) const { return anchors_.count(id) > 0 || AnchorOf(id); }
+  bool IsKnown(int id) const;
 
-  const std::vector<std::shared_ptr<const Keyframe>>& keyframes_;
+  const Keyframes& keyframes_;
   const std::vector<GraphConstraint>& constraints_;
   const GraphLinks& links_;
-  const std::map<int, AttachedPose>& anchors_;
+  const Anchors& anchors_;
   const KnownPlaceOptions& options_;
 };
 
 /// The constraints between the keyframes that are not anchored: places that were recognised, and
 /// the way from one such keyframe to the next. `constraints` hold the ways in the order of time.
-std::vector<GraphConstraint> Without(const std::map<int, AttachedPose>& anchors,
+std::vector<GraphConstraint> Without(const Anchors& anchors,
                                      const std::vector<GraphConstraint>& constraints);
 
 }  // namespace scan_image_slam

@@ -8,6 +8,7 @@
 #include "scan_image_slam/core/mapping/pose_graph.h"
 #include "scan_image_slam/core/mapping/submap.h"
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -54,26 +55,32 @@ class LoopCloser {
 
   /// All that it knows; a closer of the same options that loads it goes on like this one.
   GraphMemory memory() const {
-    return {keyframes_, poses_, constraints_, anchors_, closures_since_optimization_};
+    return {keyframes_,
+            poses_,
+            constraints_,
+            anchors_,
+            submaps_,
+            next_to_release_,
+            closures_since_optimization_};
   }
   void Load(GraphMemory memory);
 
-  /// map_from_base of each keyframe.
-  const std::vector<Pose2>& poses() const { return poses_; }
+  /// Of the keyframes that are kept.
+  const GraphPoses& poses() const { return poses_; }
+  /// Keyframes that were let go, and where what hangs on them hangs from now on. They are listed
+  /// until ForgetLetGo.
+  Anchors let_go() const;
+  /// Nothing hangs any more on keyframes that had been let go when this one came.
+  void ForgetLetGo(int keyframe);
   const std::vector<GraphConstraint>& constraints() const { return constraints_; }
   /// Places that were recognised, as far as the graph holds them.
   int closures() const { return closures_; }
 
  private:
-  /// Keyframes begin .. end - 1.
-  struct Range {
-    int begin = 0;
-    int end = 0;
-  };
   void Enter(std::shared_ptr<const Keyframe> keyframe);
   void Join(const GraphConstraint& constraint);
   void JoinOnly(const std::vector<GraphConstraint>& constraints);
-  void ExtendSubmaps();
+  void ExtendSubmaps(int id);
   Submap& GetSubmap(int id);
   std::vector<std::pair<int, int>> Candidates(int id) const;
   LoopQuery MakeQuery(int id, double way) const;
@@ -83,15 +90,23 @@ class LoopCloser {
   bool TakeBack();
   void ReleaseKnown();
   void LeaveOutKnown();
+  void LetGo();
+  bool IsInSubmap(int id) const;
+  double WayAt(int id) const { return keyframes_.at(id)->way; }
 
   LoopCloserOptions options_;
-  std::vector<std::shared_ptr<const Keyframe>> keyframes_;
-  std::vector<Pose2> poses_;
+  Keyframes keyframes_;
+  GraphPoses poses_;
   std::vector<GraphConstraint> constraints_;
   GraphLinks links_;
-  std::map<int, AttachedPose> anchors_;  ///< keyframes that the graph does without
+  Anchors anchors_;  ///< of keyframes that the graph does without
+  struct LetGoKeyframe {
+    int id = 0;
+    int latest = 0;  ///< keyframe at that time
+  };
+  std::deque<LetGoKeyframe> let_go_;  ///< in the order of time
   int closures_ = 0;
-  std::map<int, Range> submaps_;  ///< by number, in the order of time
+  std::map<int, KeyframeRange> submaps_;  ///< by number, in the order of time
   struct CachedSubmap {
     std::unique_ptr<Submap> submap;
     int used = 0;

@@ -19,10 +19,26 @@ struct AttachedPose {
 };
 
 /// Where it is if the keyframes are at these poses, map_from_base.
-inline Pose2 MapFromBase(const AttachedPose& pose, const std::vector<Pose2>& keyframe_poses) {
+inline Pose2 MapFromBase(const AttachedPose& pose, const GraphPoses& keyframe_poses) {
   if (pose.keyframe < 0) return pose.keyframe_from_base;
-  return keyframe_poses[pose.keyframe] * pose.keyframe_from_base;
+  return keyframe_poses.at(pose.keyframe) * pose.keyframe_from_base;
 }
+
+/// Where keyframes that the graph does without lie to others, by number.
+using Anchors = std::map<int, AttachedPose>;
+
+/// What hangs on a keyframe that was let go hangs on the anchor of that from now on.
+inline AttachedPose Reattached(const AttachedPose& pose, const Anchors& let_go) {
+  const auto anchor = let_go.find(pose.keyframe);
+  if (anchor == let_go.end()) return pose;
+  return {anchor->second.keyframe, anchor->second.keyframe_from_base * pose.keyframe_from_base};
+}
+
+/// Keyframes begin .. end - 1.
+struct KeyframeRange {
+  int begin = 0;
+  int end = 0;
+};
 
 /// A scan in the occupancy grid.
 struct DrawnScan {
@@ -33,12 +49,23 @@ struct DrawnScan {
 
 /// What the back-end knows: all that it needs to go on.
 struct GraphMemory {
-  std::vector<std::shared_ptr<const Keyframe>> keyframes;
-  std::vector<Pose2> poses;  ///< map_from_base of each keyframe
+  Keyframes keyframes;
+  GraphPoses poses;  ///< of each keyframe
   std::vector<GraphConstraint> constraints;
-  std::map<int, AttachedPose> anchors;  ///< of keyframes that the graph does without
-  int closures_since_optimization = 0;  ///< of the whole graph
+  Anchors anchors;  ///< of what the graph does without, as long as something hangs on it
+  std::map<int, KeyframeRange> submaps;  ///< by number, in the order of time
+  int next_to_release = 0;               ///< keyframes before it have been judged
+  int closures_since_optimization = 0;   ///< of the whole graph
 };
+
+/// Anchors of keyframes that the graph holds no more.
+inline Anchors LetGo(const GraphMemory& graph) {
+  Anchors let_go;
+  for (const auto& [id, anchor] : graph.anchors) {
+    if (graph.keyframes.count(id) == 0) let_go[id] = anchor;
+  }
+  return let_go;
+}
 
 /// Where a chain of matches lay in the map when its match of `stamp` came.
 struct KnownChain {

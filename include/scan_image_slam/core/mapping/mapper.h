@@ -68,8 +68,9 @@ class Mapper {
   /// AddModel does nothing.
   std::optional<Sighting> Look(const FusedModel& model, const MatchedMotion& match);
 
-  /// Moves the first keyframes to these poses, map_from_base, and what came later with the last.
-  void Correct(const std::vector<Pose2>& keyframe_poses);
+  /// Moves the first keyframes to these poses, and what came later with the last. What hangs on
+  /// keyframes that were let go hangs on their anchors from then on.
+  void Correct(GraphPoses keyframe_poses, const Anchors& let_go);
 
   /// The map as it is now, but for its graph, which is the back-end's.
   MapState State() const;
@@ -121,6 +122,7 @@ class Mapper {
   void MoveRobot(const Pose2& new_from_old);
   std::shared_ptr<const Keyframe> Keep(const FusedModel& model, const MatchedMotion& match);
   AttachedPose Attach(const Pose2& map_from_base) const;
+  int NextKeyframe() const;
   void Track(const MapPose& pose);
 
   MapperOptions options_;
@@ -133,7 +135,7 @@ class Mapper {
   std::optional<Stamp> drawn_stamp_;
   Pose2 map_from_drawn_;
 
-  std::vector<Pose2> keyframe_poses_;
+  GraphPoses keyframe_poses_;
   int failed_ = 0;              ///< matches in a row, up to the last one
   bool joined_ = true;          ///< the matching has followed all motion since the last keyframe
   double way_ = 0.0;            ///< driven so far [m]

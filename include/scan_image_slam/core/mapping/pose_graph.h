@@ -2,11 +2,15 @@
 
 #include "scan_image_slam/core/geometry/pose2.h"
 
+#include <map>
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace scan_image_slam {
+
+/// map_from_base of each node, by number; numbers of nodes that were let go are missing.
+using GraphPoses = std::map<int, Pose2>;
 
 /// A measured pose of one node in the frame of another.
 struct GraphConstraint {
@@ -26,7 +30,7 @@ struct GraphConstraint {
 GraphConstraint Chained(const GraphConstraint& first, const GraphConstraint& second);
 
 /// Squared residual of a constraint, in standard deviations.
-double SquaredResidual(const GraphConstraint& constraint, const std::vector<Pose2>& nodes);
+double SquaredResidual(const GraphConstraint& constraint, const GraphPoses& nodes);
 
 struct GraphOptions {
   int max_iterations = 20;
@@ -36,6 +40,6 @@ struct GraphOptions {
 /// Moves nodes to the poses that fit the constraints best (least squares, by Ceres). Nodes before
 /// `first_free` stay where they are; at least the first one does, and those without a constraint.
 void OptimizeGraph(const std::vector<GraphConstraint>& constraints, int first_free,
-                   const GraphOptions& options, std::vector<Pose2>* nodes);
+                   const GraphOptions& options, GraphPoses* nodes);
 
 }  // namespace scan_image_slam

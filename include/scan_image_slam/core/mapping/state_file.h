@@ -9,11 +9,10 @@ namespace scan_image_slam {
 /// A state as bytes: numbers with the low byte first.
 ///
 ///   8 bytes "SISTATE\n", u32 version, u32 CRC-32 and u64 size of what follows
-///   keyframes, their poses, constraints, drawn scans, each as a u32 count and the things; the
-///   chain
+///   the graph, drawn scans, the chain
 ///
-/// The field-by-field order is that of the structs in map_state.h; a keyframe's number is its
-/// place. A field more or less is a new version.
+/// The field-by-field order is that of the structs in map_state.h, lists as a u32 count and the
+/// things. A field more or less is a new version.
 std::string EncodeState(const MapState& state);
 
 /// The state that was encoded, bit for bit. Throws std::runtime_error that says what is wrong at
