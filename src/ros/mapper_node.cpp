@@ -1,8 +1,6 @@
 #include "scan_image_slam/ros/mapper_node.h"
 
-#include "scan_image_slam/core/mapping/map_file.h"
 #include "scan_image_slam/ros/graph_markers.h"
-#include "scan_image_slam/ros/map_files.h"
 #include "scan_image_slam/ros/node_parameters.h"
 #include "scan_image_slam/ros/publish_shared.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
@@ -41,22 +39,21 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
                           options_.node.trajectory_spacing),
       pairs_(kQueue),
       live_parameters_(private_node, Options().Parameters(), options_.Parameters(),
-                       [this](const LiveParameters::Values& values) { Take(values); }) {
+                       [this](const LiveParameters::Values& values) { Take(values); }),
+      files_(node) {
   pose_publisher_ = node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
   command_publisher_ = node.advertise<std_msgs::String>("syscommand", 1);
   graph_publisher_ = node.advertise<visualization_msgs::MarkerArray>("pose_graph", 1, true);
   get_map_service_ = node.advertiseService("dynamic_map", &MapperNode::GetMap, this);
   reset_service_ = node.advertiseService("reset", &MapperNode::Reset, this);
   pause_service_ = node.advertiseService("pause", &MapperNode::Pause, this);
-  save_map_service_ = node.advertiseService("save_map", &MapperNode::SaveMap, this);
-  save_state_service_ = node.advertiseService("save_state", &MapperNode::SaveState, this);
-  load_state_service_ = node.advertiseService("load_state", &MapperNode::LoadState, this);
   watch_.AddValue("mode", [this] {
     return mapper_.lost() ? "lost" : mapper_.growing() ? "mapping" : "localization";
   });
   watch_.AddValue("paused", [this] { return paused_ ? "yes" : "no"; });
   watch_.AddValue("agreement with the loaded map", [this] { return std::to_string(agreement_); });
   StartWithStateFile(node);
+  AdvertiseFileServices();
 
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   initial_pose_subscriber_ = node.subscribe("initialpose", 1, &MapperNode::OnInitialPose, this);
@@ -223,21 +220,6 @@ bool MapperNode::Pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::R
   paused_ = request.data;
   response.success = true;
   response.message = paused_ ? "the map is left as it is; the pose goes on" : "mapping goes on";
-  return true;
-}
-
-bool MapperNode::SaveMap(SaveMapRequest& request, SaveMapResponse& response) {
-  try {
-    const MapImage map = ToMapImage(mapper_.grid());
-    if (map.width == 0) throw std::runtime_error("there is no map yet");
-    const std::string stem = PathInside(options_.node.map_folder, request.name);
-    response.path = WriteMap(map, stem);
-    response.success = true;
-  } catch (const std::exception& error) {
-    response.success = false;
-    response.message = error.what();
-    ROS_ERROR_STREAM("save_map: " << error.what());
-  }
   return true;
 }
 

@@ -1,5 +1,6 @@
 // The part of MapperNode that saves and loads its map.
 
+#include "scan_image_slam/core/mapping/map_file.h"
 #include "scan_image_slam/core/mapping/state_file.h"
 #include "scan_image_slam/ros/map_files.h"
 #include "scan_image_slam/ros/mapper_node.h"
@@ -73,10 +74,42 @@ MapperNode::~MapperNode() {
   FinishAutosave();
 }
 
+void MapperNode::AdvertiseFileServices() {
+  files_.Advertise<SaveMapRequest, SaveMapResponse>(
+      "save_map", [this](auto& request, auto& response) { return SaveMap(request, response); });
+  files_.Advertise<StateFileRequest, StateFileResponse>(
+      "save_state", [this](auto& request, auto& response) { return SaveState(request, response); });
+  files_.Advertise<StateFileRequest, StateFileResponse>(
+      "load_state", [this](auto& request, auto& response) { return LoadState(request, response); });
+}
+
+bool MapperNode::SaveMap(SaveMapRequest& request, SaveMapResponse& response) {
+  try {
+    MapImage map;
+    std::string stem;
+    files_.InNodeThread([&] {
+      map = ToMapImage(mapper_.grid());
+      stem = PathInside(options_.node.map_folder, request.name);
+    });
+    if (map.width == 0) throw std::runtime_error("there is no map yet");
+    response.path = WriteMap(map, stem);
+    response.success = true;
+  } catch (const std::exception& error) {
+    response.success = false;
+    response.message = error.what();
+    ROS_ERROR_STREAM("save_map: " << error.what());
+  }
+  return true;
+}
+
 bool MapperNode::SaveState(StateFileRequest& request, StateFileResponse& response) {
   try {
-    response.path = PathInside(options_.node.map_folder, request.path);
-    back_end_.Save(mapper_.State(), response.path).get();
+    std::future<void> written;
+    files_.InNodeThread([&] {
+      response.path = PathInside(options_.node.map_folder, request.path);
+      written = back_end_.Save(mapper_.State(), response.path);
+    });
+    written.get();
     response.success = true;
   } catch (const std::exception& error) {
     response.message = error.what();
@@ -87,10 +120,10 @@ bool MapperNode::SaveState(StateFileRequest& request, StateFileResponse& respons
 
 bool MapperNode::LoadState(StateFileRequest& request, StateFileResponse& response) {
   try {
-    response.path = PathFrom(options_.node.map_folder, request.path);
+    files_.InNodeThread([&] { response.path = PathFrom(options_.node.map_folder, request.path); });
     MapState state = ReadState(response.path);
     state.chain = KnownChain();  // who loads another map has a reason to look for the robot
-    Load(state, response.path);
+    files_.InNodeThread([&] { Load(state, response.path); });
     response.success = true;
   } catch (const std::exception& error) {
     response.message = error.what();

@@ -7,6 +7,7 @@ import resource
 import shutil
 import signal
 import subprocess
+import threading
 import unittest
 from xmlrpc.client import ServerProxy
 
@@ -220,6 +221,22 @@ class MapperStateTest(unittest.TestCase):
         self.expect_at(self.robot.poses.at(self.robot.time - PERIOD), self.robot.expected())
         now = self.known(self.get_map().map)
         self.assertLessEqual(set(self.known(saved)), set(now))
+
+    def test_poses_go_on_while_a_file_is_read(self):
+        self.assertTrue(self.reset().success)
+        self.robot.begin(FIRST)
+        self.robot.drive(1)
+        pipe = os.path.join(self.folder, 'pipe')
+        os.mkfifo(pipe)
+        replies = []
+        reader = threading.Thread(target=lambda: replies.append(self.load('pipe')))
+        reader.start()
+        with open(pipe, 'wb') as file:  # the mapper has opened it, and waits for what comes
+            self.robot.drive(3)
+            file.write(b'this is no map')
+        reader.join()
+        self.assertFalse(replies[0].success)
+        self.assertIn('this is no state of a map', replies[0].message)
 
     def test_localization_leaves_the_map_alone_and_finds_a_robot_that_was_carried_away(self):
         path, saved = self.mapped_and_saved('localization.state')

@@ -7,6 +7,7 @@
 #include "scan_image_slam/ros/live_parameters.h"
 #include "scan_image_slam/ros/map_publisher.h"
 #include "scan_image_slam/ros/path_publisher.h"
+#include "scan_image_slam/ros/side_thread.h"
 #include "scan_image_slam/ros/transform_publisher.h"
 #include <scan_image_slam/IcpModel.h>
 #include <scan_image_slam/SaveMap.h>
@@ -59,6 +60,7 @@ class MapperNode {
   bool SaveMap(SaveMapRequest& request, SaveMapResponse& response);
   bool SaveState(StateFileRequest& request, StateFileResponse& response);
   bool LoadState(StateFileRequest& request, StateFileResponse& response);
+  void AdvertiseFileServices();
   void StartWithStateFile(ros::NodeHandle node);
   void Load(const MapState& state, const std::string& path);
   void Autosave();
@@ -92,9 +94,6 @@ class MapperNode {
   ros::ServiceServer get_map_service_;
   ros::ServiceServer reset_service_;
   ros::ServiceServer pause_service_;
-  ros::ServiceServer save_map_service_;
-  ros::ServiceServer save_state_service_;
-  ros::ServiceServer load_state_service_;
   ros::Subscriber match_subscriber_;
   ros::Subscriber initial_pose_subscriber_;
   message_filters::Subscriber<IcpModel> paired_model_subscriber_;
@@ -103,6 +102,7 @@ class MapperNode {
   ros::WallTimer map_timer_;
   ros::WallTimer autosave_timer_;
   LiveParameters live_parameters_;
+  SideThread files_;  ///< SaveMap, SaveState and LoadState run there
 };
 
 }  // namespace scan_image_slam

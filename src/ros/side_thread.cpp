@@ -1,0 +1,48 @@
+#include "scan_image_slam/ros/side_thread.h"
+
+#include <chrono>
+#include <future>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include <boost/make_shared.hpp>
+
+namespace scan_image_slam {
+namespace {
+
+/// Some work in the queue of a node's callbacks.
+class QueuedWork : public ros::CallbackInterface {
+ public:
+  explicit QueuedWork(std::packaged_task<void()> work) : work_(std::move(work)) {}
+  CallResult call() override {
+    work_();
+    return Success;
+  }
+
+ private:
+  std::packaged_task<void()> work_;
+};
+
+}  // namespace
+
+SideThread::SideThread(const ros::NodeHandle& node) : node_(node) { spinner_.start(); }
+
+SideThread::~SideThread() {
+  ends_ = true;
+  for (ros::ServiceServer& service : services_) service.shutdown();
+  spinner_.stop();
+}
+
+void SideThread::InNodeThread(const std::function<void()>& work) {
+  constexpr std::chrono::milliseconds kPatience(20);
+  std::packaged_task<void()> task(work);
+  std::future<void> done = task.get_future();
+  node_.getCallbackQueue()->addCallback(boost::make_shared<QueuedWork>(std::move(task)));
+  while (done.wait_for(kPatience) != std::future_status::ready) {
+    if (ends_) throw std::runtime_error("the node is being shut down");
+  }
+  done.get();
+}
+
+}  // namespace scan_image_slam
