@@ -11,7 +11,8 @@ with_tests=false
 debian_packages=(
   # build
   catkin cmake g++ ninja-build ccache
-  libceres-dev libcli11-dev libeigen3-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev zlib1g-dev
+  libboost-dev libceres-dev libcli11-dev libeigen3-dev libopencv-dev libyaml-cpp-dev
+  nlohmann-json3-dev zlib1g-dev
   libcv-bridge-dev libdiagnostic-msgs-dev libdiagnostic-updater-dev
   libdynamic-reconfigure-config-init-mutex-dev libimage-transport-dev libmap-msgs-dev
   libmessage-filters-dev libnav-msgs-dev libnodelet-dev libnodeletlib-dev librosbag-dev
@@ -38,8 +39,8 @@ debian_test_packages=(
 )
 ubuntu_packages=(
   cmake g++ ninja-build ccache
-  libceres-dev libcli11-dev libeigen3-dev libopencv-dev libyaml-cpp-dev nlohmann-json3-dev qtbase5-dev
-  zlib1g-dev
+  libboost-dev libceres-dev libcli11-dev libeigen3-dev libopencv-dev libyaml-cpp-dev
+  nlohmann-json3-dev qtbase5-dev zlib1g-dev
   ros-noetic-catkin ros-noetic-cv-bridge ros-noetic-diagnostic-msgs ros-noetic-diagnostic-updater
   ros-noetic-dynamic-reconfigure ros-noetic-image-transport ros-noetic-nodelet ros-noetic-pluginlib
   ros-noetic-map-msgs ros-noetic-message-filters ros-noetic-nav-msgs ros-noetic-rosbag

@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 """Measures running nodes for a long time, and writes what was seen as a page with pictures.
 
-Calls measure_latency and makes OUT/latency.json, report.md, latency.png and load.png of it. Ctrl-C
-ends the measurement and makes the page. Exit codes: those of measure_latency, 2 if a package is missing.
+Calls measure_latency and makes OUT/latency.json, report.md, latency.png and load.png of it; with the
+true trajectory, as simulate writes it, OUT/online.tum and error.png, too. Ctrl-C ends the measurement
+and makes the page. Exit codes: those of measure_latency, 2 if a package is missing.
 """
 import argparse
 import json
 import os
+import signal
 import subprocess
 import sys
 
@@ -21,20 +23,56 @@ except ImportError as missing:
     sys.exit(2)
 
 
-def measure(arguments, path):
-    command = ["rosrun", "scan_image_slam", "measure_latency"]
+def program(arguments, name):
     if arguments.programs:
-        command = [os.path.join(arguments.programs, "measure_latency")]
-    command += ["--json", path, "--period", str(arguments.period),
-                "--scan-topic", arguments.scan_topic, "--pose-topic", arguments.pose_topic]
-    if arguments.duration:
-        command += ["--duration", str(arguments.duration)]
-    process = subprocess.Popen(command)
+        return [os.path.join(arguments.programs, name)]
+    return ["rosrun", "scan_image_slam", name]
+
+
+def wait_for(process):
     while True:
         try:
             return process.wait()
         except KeyboardInterrupt:
             pass  # it got the signal, too, and writes what it has
+
+
+def measure(arguments, path):
+    command = program(arguments, "measure_latency")
+    command += ["--json", path, "--period", str(arguments.period),
+                "--scan-topic", arguments.scan_topic, "--pose-topic", arguments.pose_topic]
+    if arguments.duration:
+        command += ["--duration", str(arguments.duration)]
+    recorder = None
+    if arguments.truth:
+        recorder = subprocess.Popen(
+            program(arguments, "trajectory_recorder") +
+            ["_folder:=" + arguments.out, "pose:=" + arguments.pose_topic],
+            stdout=subprocess.DEVNULL)
+    try:
+        return wait_for(subprocess.Popen(command))
+    finally:
+        if recorder:
+            recorder.send_signal(signal.SIGINT)
+            wait_for(recorder)
+
+
+def judge(arguments):
+    """Lines about the errors of the poses, from where the first of them lies on the truth."""
+    online = os.path.join(arguments.out, "online.tum")
+    try:
+        subprocess.run(program(arguments, "plot_trajectory.py") +
+                       ["--reference", arguments.truth, "--estimate", online,
+                        "--out", os.path.join(arguments.out, "error.png")], check=True)
+        printed = subprocess.run(
+            program(arguments, "evaluate_trajectory") + [arguments.truth, online],
+            check=True, text=True, stdout=subprocess.PIPE).stdout
+    except subprocess.CalledProcessError:  # which has said why; the rest is of use without it
+        return ["The poses could not be compared with %s." % arguments.truth, ""]
+    values = dict(word.split("=") for word in printed.split())
+    return ["Error of the pose: %s m (ATE), at worst %s m, over %s m." %
+            (values["ate_rmse_m"], values["ate_max_m"], values["path_m"]), "",
+            "![error](error.png)", ""]
 
 
 def ends(periods):
@@ -87,22 +125,31 @@ def growth(report, node):
     return (last - first) / between * 3600
 
 
-def page(report):
-    latency = report["latency_ms"]
+def first_and_last(report, node, key):
+    values = [p["nodes"][node][key] for p in report["periods"] if node in p["nodes"]]
+    return "%d, %d" % (values[0], values[-1]) if values else ""
+
+
+def page(report, judgement):
+    latency = ["-" if report["latency_ms"][key] is None else "%.1f" % report["latency_ms"][key]
+               for key in ("p50", "p90", "p99", "max")]
     lines = ["# Long run", "",
-             "%.2f hours, %d scans, %d of them without a pose." %
-             (report["seconds"] / 3600, report["scans"], report["dropped"]), "",
-             "From scan to pose [ms]: half within %.1f, 90 %% within %.1f, 99 %% within %.1f, "
-             "longest %.1f." % tuple(latency[k] for k in ("p50", "p90", "p99", "max")), "",
+             "%.2f hours, %d scans, %d of them without a pose; %d poses that are not finite." %
+             (report["seconds"] / 3600, report["scans"], report["dropped"],
+              report["poses_not_finite"]), "",
+             "From scan to pose [ms]: half within %s, 90 %% within %s, 99 %% within %s, "
+             "longest %s." % tuple(latency), "",
              "![latency](latency.png)", "",
              "| node | one core [%] | per scan [ms] | memory [MB] | at most [MB] "
-             "| growth in the second half [MB/h] |", "| --- | --- | --- | --- | --- | --- |"]
+             "| growth in the second half [MB/h] | threads at first, in the end | open files |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- |"]
     for node, load in sorted(report["nodes"].items()):
         grown = growth(report, node)
-        lines.append("| %s | %.1f | %.2f | %.0f | %.0f | %s |" % (
+        lines.append("| %s | %.1f | %.2f | %.0f | %.0f | %s | %s | %s |" % (
             node, load["cpu_percent"], load["cpu_ms_per_scan"], load["memory_mb"],
-            load["peak_memory_mb"], "" if grown is None else "%.1f" % grown))
-    return "\n".join(lines + ["", "![load](load.png)", ""])
+            load["peak_memory_mb"], "" if grown is None else "%.1f" % grown,
+            first_and_last(report, node, "threads"), first_and_last(report, node, "open_files")))
+    return "\n".join(lines + ["", "![load](load.png)", ""] + judgement)
 
 
 def main():
@@ -112,6 +159,7 @@ def main():
     parser.add_argument("--period", type=float, default=10.0, help="between two looks [s]")
     parser.add_argument("--scan-topic", default="scan")
     parser.add_argument("--pose-topic", default="pose")
+    parser.add_argument("--truth", help="true trajectory of the run, TUM format: to judge the poses")
     parser.add_argument("--programs", help="folder of measure_latency, if rosrun does not find it")
     arguments = parser.parse_args()
     os.makedirs(arguments.out, exist_ok=True)
@@ -123,8 +171,9 @@ def main():
         report = json.load(file)
     draw_latency(report, os.path.join(arguments.out, "latency.png"))
     draw_load(report, os.path.join(arguments.out, "load.png"))
+    judgement = judge(arguments) if arguments.truth else []
     with open(os.path.join(arguments.out, "report.md"), "w") as file:
-        file.write(page(report))
+        file.write(page(report, judgement))
     print(os.path.join(arguments.out, "report.md"))
     return 0
 

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 
 #include <geometry_msgs/PoseStamped.h>
@@ -15,14 +16,28 @@
 
 namespace {
 
+using scan_image_slam::Pose2;
 using scan_image_slam::Seconds;
+using scan_image_slam::Stamp;
 using scan_image_slam::ToPose2;
 using scan_image_slam::ToStamp;
 using scan_image_slam::Trajectory;
 
-/// Adds a pose if its time advances, as the files demand.
-void Add(const scan_image_slam::StampedPose& pose, Trajectory* trajectory) {
-  if (trajectory->empty() || pose.stamp > trajectory->back().stamp) trajectory->push_back(pose);
+Pose2 ToPose2(const geometry_msgs::Pose2D& pose) { return {pose.x, pose.y, pose.theta}; }
+
+/// Adds a pose if its time advances, as the files demand. One that is none is told and left out.
+template <typename Pose>
+void Add(const std_msgs::Header& header, const Pose& pose, const std::string& topic,
+         Trajectory* trajectory) {
+  try {
+    const Stamp stamp = ToStamp(header.stamp);
+    const Pose2 pose2 = ToPose2(pose);
+    if (trajectory->empty() || stamp > trajectory->back().stamp) {
+      trajectory->push_back({stamp, pose2});
+    }
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_STREAM_THROTTLE(5.0, topic << ": " << error.what());
+  }
 }
 
 }  // namespace
@@ -37,17 +52,16 @@ int main(int argc, char** argv) {
   constexpr std::uint32_t kQueue = 1000;
   const ros::Subscriber poses = node.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
       "pose", kQueue, [&](const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
-        Add({ToStamp(message->header.stamp), ToPose2(message->pose.pose)}, &estimate);
+        Add(message->header, message->pose.pose, "pose", &estimate);
       });
   const ros::Subscriber matches = node.subscribe<scan_image_slam::ScanMatch>(
       "scan_match", kQueue, [&](const scan_image_slam::ScanMatchConstPtr& message) {
         if (!message->has_odometry) return;
-        const geometry_msgs::Pose2D& pose = message->odom_pose;
-        Add({ToStamp(message->header.stamp), {pose.x, pose.y, pose.theta}}, &encoder);
+        Add(message->header, message->odom_pose, "scan_match", &encoder);
       });
   const ros::Subscriber truths = node.subscribe<geometry_msgs::PoseStamped>(
       "ground_truth", kQueue, [&](const geometry_msgs::PoseStampedConstPtr& message) {
-        Add({ToStamp(message->header.stamp), ToPose2(message->pose)}, &truth);
+        Add(message->header, message->pose, "ground_truth", &truth);
       });
   ros::spin();
   try {

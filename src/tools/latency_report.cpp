@@ -40,6 +40,8 @@ NodeLoad Sum(const std::map<std::string, NodeLoad>& loads) {
     sum.cpu_seconds += load.cpu_seconds;
     sum.memory_mb += load.memory_mb;
     sum.peak_memory_mb += load.peak_memory_mb;
+    sum.threads += load.threads;
+    sum.open_files += load.open_files;
   }
   return sum;
 }
@@ -62,9 +64,9 @@ std::string HistogramText(const std::vector<double>& latencies) {
 }
 
 std::string LoadText(const std::string& name, const NodeLoad& load, const LatencyPeriod& period) {
-  return Format("%-30s %8.1f %12.2f %10.0f %10.0f\n", name.c_str(),
+  return Format("%-30s %8.1f %12.2f %10.0f %10.0f %8d %8d\n", name.c_str(),
                 CpuPercent(load, period.seconds), CpuPerScan(load, period.scans), load.memory_mb,
-                load.peak_memory_mb);
+                load.peak_memory_mb, load.threads, load.open_files);
 }
 
 nlohmann::json LoadsJson(const LatencyPeriod& period) {
@@ -73,7 +75,9 @@ nlohmann::json LoadsJson(const LatencyPeriod& period) {
     nodes[name] = {{"cpu_percent", CpuPercent(load, period.seconds)},
                    {"cpu_ms_per_scan", CpuPerScan(load, period.scans)},
                    {"memory_mb", load.memory_mb},
-                   {"peak_memory_mb", load.peak_memory_mb}};
+                   {"peak_memory_mb", load.peak_memory_mb},
+                   {"threads", load.threads},
+                   {"open_files", load.open_files}};
   }
   return nodes;
 }
@@ -92,26 +96,28 @@ nlohmann::json PeriodJson(const LatencyPeriod& period) {
 
 }  // namespace
 
-std::string ReportText(const LatencyPeriod& whole, std::size_t strangers) {
+std::string ReportText(const LatencyPeriod& whole, const OddPoses& odd) {
   std::string text =
       Format("%.1f s, %zu scans (%.1f per second), %zu of them without a pose\n", whole.seconds,
              whole.scans, static_cast<double>(whole.scans) / whole.seconds, whole.dropped);
-  if (strangers > 0) text += Format("%zu poses without a scan\n", strangers);
+  if (odd.without_scan > 0) text += Format("%zu poses without a scan\n", odd.without_scan);
+  if (odd.not_finite > 0) text += Format("%zu poses that are not finite\n", odd.not_finite);
   text += "from scan to pose [ms]:";
   for (const NamedPercent& p : kPercents) {
     text += Format("  %s %.1f", p.name, Percentile(whole.latencies, p.percent));
   }
   text += "\n" + HistogramText(whole.latencies);
-  text +=
-      Format("\n%-30s %8s %12s %10s %10s\n", "node", "core [%]", "ms per scan", "MB", "peak MB");
+  text += Format("\n%-30s %8s %12s %10s %10s %8s %8s\n", "node", "core [%]", "ms per scan", "MB",
+                 "peak MB", "threads", "files");
   for (const auto& [name, load] : whole.loads) text += LoadText(name, load, whole);
   return text + LoadText("all", Sum(whole.loads), whole);
 }
 
-nlohmann::json ReportJson(const LatencyPeriod& whole, std::size_t strangers,
+nlohmann::json ReportJson(const LatencyPeriod& whole, const OddPoses& odd,
                           const std::vector<LatencyPeriod>& periods) {
   nlohmann::json report = PeriodJson(whole);
-  report["poses_without_scan"] = strangers;
+  report["poses_without_scan"] = odd.without_scan;
+  report["poses_not_finite"] = odd.not_finite;
   const std::vector<std::size_t> counts = CountUpTo(whole.latencies, kBounds);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     nlohmann::json bound = nullptr;  // above all bounds

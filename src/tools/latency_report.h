@@ -20,11 +20,17 @@ struct LatencyPeriod {
   std::map<std::string, NodeLoad> loads;
 };
 
+/// Poses that should not be.
+struct OddPoses {
+  std::size_t without_scan = 0;
+  std::size_t not_finite = 0;
+};
+
 /// Tables for people: latencies with their histogram, and the load of each node.
-std::string ReportText(const LatencyPeriod& whole, std::size_t strangers);
+std::string ReportText(const LatencyPeriod& whole, const OddPoses& odd);
 
 /// The same for programs, with a line for each of the periods, in their order.
-nlohmann::json ReportJson(const LatencyPeriod& whole, std::size_t strangers,
+nlohmann::json ReportJson(const LatencyPeriod& whole, const OddPoses& odd,
                           const std::vector<LatencyPeriod>& periods);
 
 }  // namespace scan_image_slam

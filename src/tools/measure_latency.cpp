@@ -75,6 +75,10 @@ class Receiver {
     const std::lock_guard<std::mutex> lock(mutex_);
     return record_.begun();
   }
+  OddPoses odd() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return {record_.strangers(), not_finite_};
+  }
   bool has_scan() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return has_scan_;
@@ -91,13 +95,18 @@ class Receiver {
   }
   void OnPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
     const Stamp now = FromSeconds(Now());
+    const geometry_msgs::Pose& pose = message->pose.pose;
+    const bool finite =
+        std::isfinite(pose.position.x + pose.position.y + pose.orientation.z + pose.orientation.w);
     const std::lock_guard<std::mutex> lock(mutex_);
+    not_finite_ += finite ? 0 : 1;
     record_.AddPose(static_cast<Stamp>(message->header.stamp.toNSec()), now);
   }
 
   mutable std::mutex mutex_;
   LatencyRecord record_;
   bool has_scan_ = false;
+  std::size_t not_finite_ = 0;
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   ros::Subscriber scans_;
@@ -163,7 +172,7 @@ class Measurement {
     const LatencyPeriod total = Total(record, nodes_, Now() - begin_);
     periods_.push_back(Since(total_, total));
     total_ = total;
-    Write(Since(before_, total_), record.strangers());
+    Write(Since(before_, total_), receiver_.odd());
   }
 
   /// Writes and prints all. Scans that still wait for their pose count as dropped.
@@ -172,13 +181,13 @@ class Measurement {
     LatencyPeriod whole = Since(before_, Total(record, nodes_, total_.seconds));
     whole.scans += record.waiting();
     whole.dropped += record.waiting();
-    Write(whole, record.strangers());
-    std::cout << ReportText(whole, record.strangers());
+    Write(whole, receiver_.odd());
+    std::cout << ReportText(whole, receiver_.odd());
   }
 
  private:
-  void Write(const LatencyPeriod& whole, std::size_t strangers) const {
-    if (!json_.empty()) ReplaceFile(json_, ReportJson(whole, strangers, periods_).dump(2) + "\n");
+  void Write(const LatencyPeriod& whole, const OddPoses& odd) const {
+    if (!json_.empty()) ReplaceFile(json_, ReportJson(whole, odd, periods_).dump(2) + "\n");
   }
 
   const Receiver& receiver_;

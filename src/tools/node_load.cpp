@@ -1,6 +1,7 @@
 #include "node_load.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -51,10 +52,21 @@ std::optional<int> ProcessOf(const std::string& node) {
   return static_cast<int>(answer[2]);
 }
 
+int CountOpenFiles(const std::string& process_folder) {
+  std::error_code ended;
+  int count = 0;
+  for (std::filesystem::directory_iterator file(process_folder + "/fd", ended), end;
+       !ended && file != end; file.increment(ended)) {
+    ++count;
+  }
+  return count;
+}
+
 }  // namespace
 
 std::optional<ProcessLoad> ReadProcessLoad(int pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  const std::string folder = "/proc/" + std::to_string(pid);
+  std::ifstream file(folder + "/stat");
   std::string line;
   if (!std::getline(file, line)) return std::nullopt;
   // The name, in brackets, may hold anything; what follows begins with the third field of proc(5).
@@ -63,12 +75,14 @@ std::optional<ProcessLoad> ReadProcessLoad(int pid) {
   for (std::string value; fields >> value;) values.push_back(value);
   constexpr std::size_t kUserTicks = 14 - 3;
   constexpr std::size_t kSystemTicks = 15 - 3;
+  constexpr std::size_t kThreads = 20 - 3;
   constexpr std::size_t kResidentPages = 24 - 3;
   if (values.size() <= kResidentPages) return std::nullopt;
   const double ticks = std::stod(values[kUserTicks]) + std::stod(values[kSystemTicks]);
   const double pages = std::stod(values[kResidentPages]);
   return ProcessLoad{ticks / static_cast<double>(sysconf(_SC_CLK_TCK)),
-                     pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6};
+                     pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6,
+                     std::stoi(values[kThreads]), CountOpenFiles(folder)};
 }
 
 void NodeLoads::Look() {
@@ -90,6 +104,8 @@ void NodeLoads::Look() {
     load.pid = watched.pid;
     load.cpu_seconds += process->cpu_seconds - watched.cpu_seconds;
     load.memory_mb = process->memory_mb;
+    load.threads = process->threads;
+    load.open_files = process->open_files;
     load.peak_memory_mb = std::max(load.peak_memory_mb, process->memory_mb);
     watched.cpu_seconds = process->cpu_seconds;
   }

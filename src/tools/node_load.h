@@ -11,6 +11,8 @@ namespace scan_image_slam {
 struct ProcessLoad {
   double cpu_seconds = 0.0;  ///< processor time of all its threads [s]
   double memory_mb = 0.0;    ///< resident now [MB]
+  int threads = 0;
+  int open_files = 0;  ///< also sockets
 };
 
 /// Of a process of this machine; none if there is no such process.
@@ -22,6 +24,8 @@ struct NodeLoad {
   double cpu_seconds = 0.0;     ///< also that of its earlier processes, up to the last look [s]
   double memory_mb = 0.0;       ///< resident at the last look [MB]
   double peak_memory_mb = 0.0;  ///< largest of all looks [MB]
+  int threads = 0;              ///< at the last look
+  int open_files = 0;
 };
 
 /// Looks at the processes that publish some topics: those of the nodes or, if they are nodelets,

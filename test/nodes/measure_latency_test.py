@@ -3,7 +3,9 @@
 
 import itertools
 import json
+import math
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -60,8 +62,10 @@ class MeasureLatencyTest(unittest.TestCase):
     def scan(self, number):
         self.scans.publish(room_scan(1000.0 + number))
 
-    def pose(self, number):
+    def pose(self, number, x=0.0):
         message = PoseWithCovarianceStamped()
+        message.pose.pose.position.x = x
+        message.pose.pose.orientation.w = 1.0
         message.header.stamp = stamp_of(1000.0 + number)
         self.poses.publish(message)
 
@@ -97,7 +101,7 @@ class MeasureLatencyTest(unittest.TestCase):
         begin = time.monotonic()
         wait_for(lambda: time.monotonic() > begin + 0.3, 'that time')  # so late, at least
         self.pose(last + 2)
-        self.pose(last + 4)
+        self.pose(last + 4, x=math.nan)
         wait_for(lambda: self.report()['dropped'] == 3, 'three dropped scans')
         output, report = self.stop(process)
         self.assertGreaterEqual(report['scans'], before + 5)
@@ -107,12 +111,15 @@ class MeasureLatencyTest(unittest.TestCase):
                              if (row['up_to_ms'] or 1e9) > 200), 2)
         self.assertGreaterEqual(report['latency_ms']['max'], 300)
         self.assertEqual(report['poses_without_scan'], 0)
+        self.assertEqual(report['poses_not_finite'], 1)
         self.assertIn('3 of them without a pose', output)
 
         self.assertEqual(list(report['nodes']), [NAME])
         load = report['nodes'][NAME]
         self.assertAlmostEqual(load['memory_mb'], resident_mb(), delta=0.2 * resident_mb())
         self.assertGreaterEqual(load['peak_memory_mb'], load['memory_mb'])
+        self.assertAlmostEqual(load['threads'], len(os.listdir('/proc/self/task')), delta=5)
+        self.assertAlmostEqual(load['open_files'], len(os.listdir('/proc/self/fd')), delta=5)
         self.assertAlmostEqual(load['cpu_ms_per_scan'] * report['scans'] / 1e3,
                                load['cpu_percent'] / 100 * report['seconds'], 6)
         periods = report['periods']
@@ -121,17 +128,29 @@ class MeasureLatencyTest(unittest.TestCase):
         self.assertEqual(sum(p['dropped'] for p in periods), 3)
 
     def test_report_of_a_long_run(self):
+        truth = os.path.join(self.folder, 'truth.tum')
+        with open(truth, 'w') as file:  # the poses that are published stand still
+            file.writelines(f'{1000 + 0.5 * i} {0.25 * i} 0 0 0 0 0 1\n' for i in range(1000))
         process = self.run_in_group(
             program('soak.py'), '--out', self.folder, '--period', '0.2', '--scan-topic',
-            'front/scan', '--programs', os.path.dirname(program('measure_latency')))
-        self.begin(process)
+            'front/scan', '--programs', os.path.dirname(program('measure_latency')), '--truth', truth)
+        wait_for(lambda: self.poses.get_num_connections() > 1, 'who records the poses')
+        last = self.begin(process)
+        self.pose(last, x=math.nan)
+        for number in range(last, last + 20):
+            self.scan(number)
+            self.pose(number)
         wait_for(lambda: os.path.exists(self.file) and len(self.report()['periods']) > 4, 'periods')
         report = self.stop(process)[1]
         with open(os.path.join(self.folder, 'report.md')) as file:
             page = file.read()
         self.assertIn(f"{report['scans']} scans, {report['dropped']} of them without", page)
         self.assertIn(f'| {NAME} | ', page)
-        for picture in ('latency.png', 'load.png'):
+        self.assertIn('1 poses that are not finite', page)
+        self.assertIn('at worst', page, self.said())
+        worst = float(re.search(r'at worst ([0-9.]+) m', page).group(1))
+        self.assertGreater(worst, 1.0)
+        for picture in ('latency.png', 'load.png', 'error.png'):
             self.assertIn(f']({picture})', page)
             self.assertGreater(os.path.getsize(os.path.join(self.folder, picture)), 5000)
 

@@ -141,8 +141,10 @@ Submap& LoopCloser::GetSubmap(int id) {
 
 /// Keyframes of former visits near a keyframe and the submaps that hold them, nearest first.
 std::vector<std::pair<int, int>> LoopCloser::Candidates(int id) const {
+  constexpr double kStretch = 1.1;  // of a submap, by the graph
   const double way = WayAt(id);
   const Eigen::Vector2d place = poses_.at(id).translation();
+  const double farthest = options_.max_distance + options_.max_window;
   struct Candidate {
     double distance;
     int near_id;
@@ -151,6 +153,8 @@ std::vector<std::pair<int, int>> LoopCloser::Candidates(int id) const {
   std::vector<Candidate> found;
   for (const auto& [submap_id, range] : submaps_) {
     if (way - WayAt(range.end - 1) < options_.min_loop_way) break;
+    const double to_begin = (poses_.at(range.begin).translation() - place).norm();
+    if (to_begin > farthest + kStretch * options_.submap_way) continue;
     Candidate best{std::numeric_limits<double>::infinity(), 0, submap_id};
     auto pose = poses_.find(range.begin);
     for (auto kept = keyframes_.find(range.begin); kept != keyframes_.end(); ++kept, ++pose) {
@@ -162,7 +166,7 @@ std::vector<std::pair<int, int>> LoopCloser::Candidates(int id) const {
         best.near_id = kept->first;
       }
     }
-    if (best.distance < options_.max_distance + options_.max_window) found.push_back(best);
+    if (best.distance < farthest) found.push_back(best);
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
@@ -272,6 +276,7 @@ bool LoopCloser::TakeBack() {
 void LoopCloser::ReleaseKnown() {
   const KnownPlaces places(keyframes_, constraints_, links_, anchors_, options_.known_places);
   const double way = keyframes_.rbegin()->second->way - options_.query_way;
+  const int judged = next_to_release_;
   for (; WayAt(next_to_release_) < way; ++next_to_release_) {
     std::shared_ptr<const Keyframe>& keyframe = keyframes_.at(next_to_release_);
     if (keyframe->points.empty() || !places.AnchorOf(next_to_release_)) continue;
@@ -280,13 +285,14 @@ void LoopCloser::ReleaseKnown() {
     released->edges = std::vector<ModelEdge>();
     keyframe = std::move(released);
   }
-  for (auto submap = submaps_.begin(); submap != submaps_.end();) {
-    const KeyframeRange range = submap->second;
+  for (auto submap = submaps_.end(); submap != submaps_.begin();) {
+    const KeyframeRange range = (--submap)->second;
+    if (range.end <= judged) break;
     const bool is_left =
         range.end > next_to_release_ ||
         std::any_of(keyframes_.find(range.begin), keyframes_.lower_bound(range.end),
                     [](const auto& kept) { return !kept.second->points.empty(); });
-    submap = is_left ? std::next(submap) : submaps_.erase(submap);
+    if (!is_left) submap = submaps_.erase(submap);
   }
 }
 

@@ -3,7 +3,6 @@
 #include "scan_image_slam/core/mapping/pose_graph.h"
 
 #include <limits>
-#include <map>
 #include <unordered_map>
 #include <vector>
 
@@ -19,7 +18,7 @@ struct GraphLink {
 };
 
 /// Constraints by node: the links of each.
-using GraphLinks = std::map<int, std::vector<GraphLink>>;
+using GraphLinks = boost::container::flat_map<int, std::vector<GraphLink>>;
 
 /// The shortest ways through a graph from one node to some others (Dijkstra).
 class GraphWays {

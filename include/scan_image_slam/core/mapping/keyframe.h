@@ -5,11 +5,11 @@
 #include "scan_image_slam/core/matching/matched_motion.h"
 #include "scan_image_slam/core/matching/surface.h"
 
-#include <map>
 #include <memory>
 #include <vector>
 
 #include <Eigen/Core>
+#include <boost/container/flat_map.hpp>
 
 namespace scan_image_slam {
 
@@ -35,7 +35,7 @@ struct Keyframe {
 };
 
 /// By number; those that were let go are missing.
-using Keyframes = std::map<int, std::shared_ptr<const Keyframe>>;
+using Keyframes = boost::container::flat_map<int, std::shared_ptr<const Keyframe>>;
 
 struct KeyframeOptions {
   double point_spacing = 0.04;  ///< along a wall [m]

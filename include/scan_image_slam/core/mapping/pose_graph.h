@@ -2,15 +2,15 @@
 
 #include "scan_image_slam/core/geometry/pose2.h"
 
-#include <map>
 #include <vector>
 
 #include <Eigen/Core>
+#include <boost/container/flat_map.hpp>
 
 namespace scan_image_slam {
 
 /// map_from_base of each node, by number; numbers of nodes that were let go are missing.
-using GraphPoses = std::map<int, Pose2>;
+using GraphPoses = boost::container::flat_map<int, Pose2>;
 
 /// A measured pose of one node in the frame of another.
 struct GraphConstraint {
