@@ -15,7 +15,7 @@ constexpr std::size_t kKeyframeBytes = kFloatBytes + 2 * kDoubleBytes + kFlagByt
                                        kMatrixBytes + 2 * kDoubleBytes + 2 * kFloatBytes;
 constexpr std::size_t kConstraintBytes =
     2 * kFloatBytes + kPoseBytes + kMatrixBytes + kFlagBytes + kDoubleBytes;
-constexpr std::size_t kSubmapBytes = 3 * kFloatBytes;
+constexpr std::size_t kSubmapBytes = 3 * kFloatBytes + kDoubleBytes;
 
 void Put(const ModelEdge& edge, ByteWriter* out) {
   PutMatrix(edge.camera, out);
@@ -121,21 +121,21 @@ GraphConstraint GetConstraint(ByteReader* in, const Keyframes& keyframes) {
 void GetAnchor(ByteReader* in, GraphMemory* graph) {
   const int id = in->ReadIndex(1, kAnyIndex);
   const ByteReader before = *in;
-  AttachedPose& anchor = graph->anchors[id];
+  AttachedPose& anchor = graph->let_go[id];
   anchor.keyframe = GetNumber(in, graph->keyframes);
   if (anchor.keyframe >= id) NoKeyframe(before, anchor.keyframe);
   anchor.keyframe_from_base = GetPose(in);
 }
 
-/// Keyframes that follow each other.
+/// At least one of the keyframes is kept.
 KeyframeRange GetRange(ByteReader* in, const Keyframes& keyframes) {
-  KeyframeRange range;
-  range.begin = GetNumber(in, keyframes);
   const ByteReader before = *in;
+  KeyframeRange range;
+  range.begin = in->ReadIndex(0, kAnyIndex);
   range.end = in->ReadIndex(range.begin + 1, kAnyIndex);
-  for (int id = range.begin; id < range.end; ++id) {
-    if (keyframes.count(id) == 0) NoKeyframe(before, id);
-  }
+  const auto first = keyframes.lower_bound(range.begin);
+  if (first == keyframes.end() || first->first >= range.end) NoKeyframe(before, range.begin);
+  range.way = in->Read<double>();
   return range;
 }
 
@@ -162,7 +162,7 @@ AttachedPose GetAttached(ByteReader* in, const GraphMemory& graph) {
   AttachedPose pose;
   pose.keyframe = in->ReadIndex(-1, kAnyIndex);
   if (pose.keyframe >= 0 && graph.keyframes.count(pose.keyframe) == 0 &&
-      graph.anchors.count(pose.keyframe) == 0) {
+      graph.let_go.count(pose.keyframe) == 0) {
     NoKeyframe(before, pose.keyframe);
   }
   pose.keyframe_from_base = GetPose(in);
@@ -175,8 +175,8 @@ void Put(const GraphMemory& graph, ByteWriter* out) {
   for (const auto& [id, pose] : graph.poses) Put(pose, out);
   PutCount(graph.constraints.size(), out);
   for (const GraphConstraint& constraint : graph.constraints) Put(constraint, out);
-  PutCount(graph.anchors.size(), out);
-  for (const auto& [id, anchor] : graph.anchors) {
+  PutCount(graph.let_go.size(), out);
+  for (const auto& [id, anchor] : graph.let_go) {
     PutIndex(id, out);
     Put(anchor, out);
   }
@@ -185,6 +185,7 @@ void Put(const GraphMemory& graph, ByteWriter* out) {
     PutIndex(number, out);
     PutIndex(range.begin, out);
     PutIndex(range.end, out);
+    out->Write(range.way);
   }
   PutIndex(graph.next_to_release, out);
   PutIndex(graph.closures_since_optimization, out);
@@ -203,8 +204,8 @@ GraphMemory GetGraph(ByteReader* in) {
   for (std::size_t i = 0; i < constraints; ++i) {
     graph.constraints.push_back(GetConstraint(in, graph.keyframes));
   }
-  const std::size_t anchors = in->ReadCount(kFloatBytes + kAttachedBytes, "anchors");
-  for (std::size_t i = 0; i < anchors; ++i) GetAnchor(in, &graph);
+  const std::size_t let_go = in->ReadCount(kFloatBytes + kAttachedBytes, "keyframes let go");
+  for (std::size_t i = 0; i < let_go; ++i) GetAnchor(in, &graph);
   const std::size_t submaps = in->ReadCount(kSubmapBytes, "submaps");
   for (std::size_t i = 0; i < submaps; ++i) {
     const int number = in->ReadIndex(0, kAnyIndex);

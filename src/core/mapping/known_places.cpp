@@ -19,9 +19,7 @@ std::optional<int> KnownPlaces::AnchorOf(int id) const {
 }
 
 /// True as well if it was let go.
-bool KnownPlaces::IsKnown(int id) const {
-  return keyframes_.count(id) == 0 || anchors_.count(id) > 0 || AnchorOf(id);
-}
+bool KnownPlaces::IsKnown(int id) const { return keyframes_.count(id) == 0 || AnchorOf(id); }
 
 bool KnownPlaces::IsNeedless(int id) const {
   if (!keyframes_.at(id)->points.empty() || !IsKnown(id - 1) || !IsKnown(id + 1)) return false;
@@ -36,17 +34,17 @@ bool KnownPlaces::IsNeedless(int id) const {
   return visits >= options_.max_visits;
 }
 
-std::vector<GraphConstraint> Without(const Anchors& anchors,
+std::vector<GraphConstraint> Without(const Anchors& let_go,
                                      const std::vector<GraphConstraint>& constraints) {
   std::vector<GraphConstraint> kept;
-  std::optional<GraphConstraint> way;  // to a keyframe that is anchored
+  std::optional<GraphConstraint> way;  // to a keyframe that is let go
   for (const GraphConstraint& c : constraints) {
     if (c.closes_loop()) {
-      if (anchors.count(c.from) == 0 && anchors.count(c.to) == 0) kept.push_back(c);
+      if (let_go.count(c.from) == 0 && let_go.count(c.to) == 0) kept.push_back(c);
       continue;
     }
     way = way ? Chained(*way, c) : c;
-    if (anchors.count(c.to) > 0) continue;
+    if (let_go.count(c.to) > 0) continue;
     kept.push_back(*way);
     way.reset();
   }

@@ -68,9 +68,6 @@ void LoopCloser::Load(GraphMemory memory) {
   keyframes_ = std::move(memory.keyframes);
   poses_ = std::move(memory.poses);
   JoinOnly(memory.constraints);
-  for (const auto& [id, pose] : memory.anchors) {
-    if (keyframes_.count(id) > 0) anchors_[id] = pose;
-  }
   submaps_ = std::move(memory.submaps);
   next_to_release_ = memory.next_to_release;
   closures_since_optimization_ = memory.closures_since_optimization;
@@ -107,18 +104,17 @@ void LoopCloser::JoinOnly(const std::vector<GraphConstraint>& constraints) {
 
 void LoopCloser::ExtendSubmaps(int id) {
   const Keyframe& keyframe = *keyframes_.at(id);
-  const bool begins =
-      submaps_.empty() || !keyframe.joined ||
-      keyframe.way - WayAt(submaps_.rbegin()->second.begin) > 0.5 * options_.submap_way;
+  const bool begins = submaps_.empty() || !keyframe.joined ||
+                      keyframe.way - submaps_.rbegin()->second.way > 0.5 * options_.submap_way;
   for (auto submap = submaps_.rbegin(); submap != submaps_.rend(); ++submap) {
     KeyframeRange& range = submap->second;
     if (range.end != id) break;
-    if (keyframe.joined && keyframe.way - WayAt(range.begin) <= options_.submap_way) {
+    if (keyframe.joined && keyframe.way - range.way <= options_.submap_way) {
       range.end = id + 1;
     }
   }
   const int next = submaps_.empty() ? 0 : submaps_.rbegin()->first + 1;
-  if (begins) submaps_[next] = {id, id + 1};
+  if (begins) submaps_[next] = {id, id + 1, keyframe.way};
 }
 
 Submap& LoopCloser::GetSubmap(int id) {
@@ -127,7 +123,10 @@ Submap& LoopCloser::GetSubmap(int id) {
   if (!cached.submap) {
     const KeyframeRange range = submaps_.at(id);
     std::vector<std::shared_ptr<const Keyframe>> keyframes;
-    for (int i = range.begin; i < range.end; ++i) keyframes.push_back(keyframes_.at(i));
+    const auto end = keyframes_.lower_bound(range.end);
+    for (auto kept = keyframes_.lower_bound(range.begin); kept != end; ++kept) {
+      keyframes.push_back(kept->second);
+    }
     cached.submap = std::make_unique<Submap>(keyframes, ChainOf(keyframes), options_.submap);
   }
   if (static_cast<int>(cache_.size()) > options_.max_cached_submaps) {
@@ -152,13 +151,13 @@ std::vector<std::pair<int, int>> LoopCloser::Candidates(int id) const {
   };
   std::vector<Candidate> found;
   for (const auto& [submap_id, range] : submaps_) {
-    if (way - WayAt(range.end - 1) < options_.min_loop_way) break;
-    const double to_begin = (poses_.at(range.begin).translation() - place).norm();
+    const auto end = keyframes_.lower_bound(range.end);
+    if (way - std::prev(end)->second->way < options_.min_loop_way) break;
+    auto pose = poses_.lower_bound(range.begin);
+    const double to_begin = (pose->second.translation() - place).norm();
     if (to_begin > farthest + kStretch * options_.submap_way) continue;
     Candidate best{std::numeric_limits<double>::infinity(), 0, submap_id};
-    auto pose = poses_.find(range.begin);
-    for (auto kept = keyframes_.find(range.begin); kept != keyframes_.end(); ++kept, ++pose) {
-      if (kept->first >= range.end) break;
+    for (auto kept = keyframes_.lower_bound(range.begin); kept != end; ++kept, ++pose) {
       if (kept->second->points.empty()) continue;
       const double distance = (pose->second.translation() - place).norm();
       if (distance < best.distance) {
@@ -209,7 +208,8 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
   if (distance > options_.max_distance + half) return std::nullopt;
   Submap& submap = GetSubmap(submap_id);
   const Pose2& submap_from_near =
-      submap.submap_from_keyframes()[near_id - submaps_.at(submap_id).begin];
+      submap.submap_from_keyframes()[keyframes_.find(near_id) -
+                                     keyframes_.lower_bound(submaps_.at(submap_id).begin)];
   const Pose2 expected = submap_from_near * (poses_.at(near_id).Inverse() * poses_.at(id));
   const bool track = half < options_.track_window;
   const std::optional<LoopMatch> match =
@@ -249,11 +249,7 @@ void LoopCloser::Optimize(const std::vector<GraphConstraint>& closures) {
   OptimizeGraph(constraints_, all ? 1 : std::max(1, end - kRecent), options_.graph, &poses_);
   if (!all) return;
   if (TakeBack()) OptimizeGraph(constraints_, 1, options_.graph, &poses_);
-  for (const auto& [id, pose] : anchors_) {
-    if (keyframes_.count(id) > 0) poses_.at(id) = MapFromBase(pose, poses_);
-  }
-  LeaveOutKnown();
-  LetGo();
+  LetKnownGo();
 }
 
 bool LoopCloser::Contradicted(const GraphConstraint& constraint, double deviation) const {
@@ -274,7 +270,7 @@ bool LoopCloser::TakeBack() {
 /// Lets go what keyframes saw of known places, as soon as no query asks for it, and the submaps of
 /// which nothing is left.
 void LoopCloser::ReleaseKnown() {
-  const KnownPlaces places(keyframes_, constraints_, links_, anchors_, options_.known_places);
+  const KnownPlaces places(keyframes_, constraints_, links_, options_.known_places);
   const double way = keyframes_.rbegin()->second->way - options_.query_way;
   const int judged = next_to_release_;
   for (; WayAt(next_to_release_) < way; ++next_to_release_) {
@@ -290,56 +286,59 @@ void LoopCloser::ReleaseKnown() {
     if (range.end <= judged) break;
     const bool is_left =
         range.end > next_to_release_ ||
-        std::any_of(keyframes_.find(range.begin), keyframes_.lower_bound(range.end),
+        std::any_of(keyframes_.lower_bound(range.begin), keyframes_.lower_bound(range.end),
                     [](const auto& kept) { return !kept.second->points.empty(); });
-    if (!is_left) submap = submaps_.erase(submap);
+    if (is_left) continue;
+    cache_.erase(submap->first);
+    submap = submaps_.erase(submap);
   }
 }
 
-/// Leaves out of the graph what says nothing new: it would grow for as long as the robot drives.
-void LoopCloser::LeaveOutKnown() {
-  const KnownPlaces places(keyframes_, constraints_, links_, anchors_, options_.known_places);
-  const std::size_t before = anchors_.size();
+/// Lets go what says nothing new: the graph would grow for as long as the robot drives.
+void LoopCloser::LetKnownGo() {
+  const KnownPlaces places(keyframes_, constraints_, links_, options_.known_places);
+  const int latest = keyframes_.rbegin()->first;
+  Anchors needless;
   for (const auto& [id, keyframe] : keyframes_) {
-    if (id == 0 || anchors_.count(id) > 0) continue;
+    if (id == 0) continue;
     if (id >= next_to_release_) break;
     if (!places.IsNeedless(id)) continue;
     const int anchor = *places.AnchorOf(id);
-    anchors_[id] = {anchor, poses_.at(anchor).Inverse() * poses_.at(id)};
+    needless[id] = {anchor, poses_.at(anchor).Inverse() * poses_.at(id)};
   }
-  if (anchors_.size() > before) JoinOnly(Without(anchors_, constraints_));
+  if (needless.empty()) return;
+  const std::vector<GraphConstraint> kept = Without(needless, constraints_);
+  for (const auto& [id, anchor] : needless) {
+    LetGo(id);
+    let_go_.push_back({id, latest, anchor});
+  }
+  JoinOnly(kept);
 }
 
-/// Lets go the keyframes that were left out, but those within a submap.
-void LoopCloser::LetGo() {
-  const int latest = keyframes_.rbegin()->first;
-  for (const auto& [id, pose] : anchors_) {
-    const auto kept = keyframes_.find(id);
-    if (kept == keyframes_.end() || IsInSubmap(id)) continue;
-    keyframes_.erase(kept);
-    poses_.erase(id);
-    links_.erase(id);
-    let_go_.push_back({id, latest});
+/// The next keyframe then tells of the motion since the one before. Submaps that hold it are made
+/// anew when they are asked for.
+void LoopCloser::LetGo(int id) {
+  const auto let_go = keyframes_.find(id);
+  auto next = std::make_shared<Keyframe>(*std::next(let_go)->second);
+  next->previous_from_base = let_go->second->previous_from_base * next->previous_from_base;
+  next->joined = next->joined && let_go->second->joined;
+  std::next(let_go)->second = std::move(next);
+  keyframes_.erase(let_go);
+  poses_.erase(id);
+  for (auto cached = cache_.begin(); cached != cache_.end();) {
+    const KeyframeRange& range = submaps_.at(cached->first);
+    cached = range.begin <= id && id < range.end ? cache_.erase(cached) : std::next(cached);
   }
-}
-
-bool LoopCloser::IsInSubmap(int id) const {
-  return std::any_of(submaps_.begin(), submaps_.end(), [&](const auto& submap) {
-    return submap.second.begin <= id && id < submap.second.end;
-  });
 }
 
 Anchors LoopCloser::let_go() const {
   Anchors anchors;
-  for (const LetGoKeyframe& keyframe : let_go_) anchors[keyframe.id] = anchors_.at(keyframe.id);
+  for (const LetGoKeyframe& keyframe : let_go_) anchors[keyframe.id] = keyframe.anchor;
   return anchors;
 }
 
 void LoopCloser::ForgetLetGo(int keyframe) {
-  while (!let_go_.empty() && let_go_.front().latest <= keyframe) {
-    anchors_.erase(let_go_.front().id);
-    let_go_.pop_front();
-  }
+  while (!let_go_.empty() && let_go_.front().latest <= keyframe) let_go_.pop_front();
 }
 
 }  // namespace scan_image_slam

@@ -287,7 +287,7 @@ void Mapper::Load(const MapState& state, MapUse use) {
   keyframe_poses_ = state.graph.poses;
   loaded_chain_ = state.chain;
   drawn_.Load(state.drawn);
-  drawn_.Reattach(LetGo(state.graph));
+  drawn_.Reattach(state.graph.let_go);
   drawn_.BeginRedraw();  // what the graph knew better when it was saved
   if (!state.graph.keyframes.empty()) way_ = state.graph.keyframes.rbegin()->second->way;
   localize_ = use == MapUse::kLocalize;

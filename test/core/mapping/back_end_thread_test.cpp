@@ -83,7 +83,7 @@ TEST(BackEndThread, TellsWhatWasLetGoUntilItIsTaken) {
   const TemporaryFolder folder;
   const auto in_file = [&] {
     thread.Save(MapState(), folder.File("a.state")).get();
-    return LetGo(ReadState(folder.File("a.state")).graph).size();
+    return ReadState(folder.File("a.state")).graph.let_go.size();
   };
   EXPECT_EQ(in_file(), let_go) << "scans may hang on them";
   const auto graph = thread.Take().graph;

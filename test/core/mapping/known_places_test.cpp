@@ -41,14 +41,11 @@ class FourVisits : public ::testing::Test {
     }
     throw std::logic_error("no closure");
   }
-  KnownPlaces Places() const {
-    return KnownPlaces(keyframes_, constraints_, links_, anchors_, options_);
-  }
+  KnownPlaces Places() const { return KnownPlaces(keyframes_, constraints_, links_, options_); }
 
   Keyframes keyframes_;
   std::vector<GraphConstraint> constraints_;
   GraphLinks links_;
-  Anchors anchors_;
   KnownPlaceOptions options_;
 };
 
@@ -87,18 +84,12 @@ TEST_F(FourVisits, NeighboursHoldTheGraphTogether) {
   Closure(11).overlap = 0.95;
   Closure(9).overlap = 0.5;
   EXPECT_FALSE(Places().IsNeedless(10));
-  anchors_[9] = {};  // which the graph does without already
-  EXPECT_TRUE(Places().IsNeedless(10));
-  anchors_.clear();
-  EXPECT_FALSE(Places().IsNeedless(10));
   keyframes_.erase(9);  // was let go, which is for what is known only
   EXPECT_TRUE(Places().IsNeedless(10));
 }
 
 TEST_F(FourVisits, TheWayPastWhatIsLeftOutIsKept) {
-  anchors_[4] = {};
-  anchors_[5] = {};
-  const std::vector<GraphConstraint> kept = Without(anchors_, constraints_);
+  const std::vector<GraphConstraint> kept = Without({{4, {}}, {5, {}}}, constraints_);
   EXPECT_EQ(kept.size(), constraints_.size() - 2 - 2);  // closures; two of three steps
   std::vector<int> ways;
   for (const GraphConstraint& c : kept) {
@@ -120,9 +111,8 @@ TEST_F(FourVisits, AMotionThatMayBeWrongIsNoRecognisedPlace) {
     if (c.from == 4 && c.to == 5) c.robust = true;  // the matching could not follow
   }
   EXPECT_FALSE(Places().AnchorOf(5) == 4);
-  anchors_[5] = {};
   int past = 0;
-  for (const GraphConstraint& c : Without(anchors_, constraints_)) {
+  for (const GraphConstraint& c : Without({{5, {}}}, constraints_)) {
     past += c.from == 4 && c.to == 6 && c.robust ? 1 : 0;
   }
   EXPECT_EQ(past, 1);

@@ -157,7 +157,7 @@ TEST_F(MapperCorrection, AStateMayHoldScansOfAKeyframeThatWasLetGo) {
   state.graph.poses = keyframe_poses_;
   state.graph.keyframes.erase(5);
   state.graph.poses.erase(5);
-  state.graph.anchors[5] = {2, keyframe_poses_[2].Inverse() * keyframe_poses_[5]};
+  state.graph.let_go[5] = {2, keyframe_poses_[2].Inverse() * keyframe_poses_[5]};
   Mapper loaded{MapperOptions()};
   loaded.Load(state, MapUse::kContinue);
   EXPECT_TRUE(loaded.Redraw(kAll));

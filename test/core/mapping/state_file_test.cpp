@@ -122,12 +122,12 @@ TEST(StateFile, WhatRefersToNothingIsRefused) {
   EXPECT_TRUE(refuses(1));
   state.graph.constraints.front().to = 0;
   EXPECT_TRUE(refuses(0)) << "a keyframe is not tied to itself";
-  state.graph.anchors[3].keyframe = 3;
-  EXPECT_TRUE(refuses(3)) << "a keyframe does not hang on itself";
-  state.graph.anchors[3].keyframe = 1;
+  state.graph.let_go[1].keyframe = 2;
+  EXPECT_TRUE(refuses(2)) << "what knows a place was there before";
+  state.graph.let_go[1].keyframe = 1;
   EXPECT_TRUE(refuses(1));
-  state.graph.submaps[4].end = 2;
-  EXPECT_TRUE(refuses(1)) << "a submap has no gap";
+  state.graph.submaps[4] = {1, 2, 0.0};
+  EXPECT_TRUE(refuses(1)) << "a submap of which nothing is left";
   state.graph.next_to_release = 0;
   EXPECT_TRUE(refuses(1)) << "what was let go was judged before";
 }

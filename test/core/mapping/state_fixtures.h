@@ -19,8 +19,8 @@ class DistinctNumbers {
     }
     state.graph.constraints = {NextConstraint(0, 2), NextConstraint(2, 3), NextConstraint(0, 3)};
     state.graph.constraints.back().robust = true;
-    state.graph.anchors = {{1, {0, NextPose()}}, {3, {2, NextPose()}}};
-    state.graph.submaps = {{4, {0, 1}}, {6, {2, 4}}};
+    state.graph.let_go = {{1, {0, NextPose()}}};
+    state.graph.submaps = {{4, {0, 1, Next()}}, {6, {1, 4, Next()}}};
     state.graph.next_to_release = 2;
     state.graph.closures_since_optimization = 7;
     for (int keyframe = -1; keyframe < 2; ++keyframe) state.drawn.push_back(NextDrawn(keyframe));
@@ -136,15 +136,16 @@ inline void ExpectSame(const GraphMemory& a, const GraphMemory& b) {
     EXPECT_EQ(a.constraints[i].robust, b.constraints[i].robust);
     EXPECT_EQ(a.constraints[i].overlap, b.constraints[i].overlap);
   }
-  ASSERT_EQ(a.anchors.size(), b.anchors.size());
-  for (const auto& [id, pose] : a.anchors) {
-    EXPECT_EQ(b.anchors.at(id).keyframe, pose.keyframe);
-    ExpectSame(b.anchors.at(id).keyframe_from_base, pose.keyframe_from_base);
+  ASSERT_EQ(a.let_go.size(), b.let_go.size());
+  for (const auto& [id, pose] : a.let_go) {
+    EXPECT_EQ(b.let_go.at(id).keyframe, pose.keyframe);
+    ExpectSame(b.let_go.at(id).keyframe_from_base, pose.keyframe_from_base);
   }
   ASSERT_EQ(a.submaps.size(), b.submaps.size());
   for (const auto& [number, range] : a.submaps) {
     EXPECT_EQ(b.submaps.at(number).begin, range.begin);
     EXPECT_EQ(b.submaps.at(number).end, range.end);
+    EXPECT_EQ(b.submaps.at(number).way, range.way);
   }
   EXPECT_EQ(a.next_to_release, b.next_to_release);
   EXPECT_EQ(a.closures_since_optimization, b.closures_since_optimization);

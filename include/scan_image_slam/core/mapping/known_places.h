@@ -22,12 +22,8 @@ struct KnownPlaceOptions {
 class KnownPlaces {
  public:
   KnownPlaces(const Keyframes& keyframes, const std::vector<GraphConstraint>& constraints,
-              const GraphLinks& links, const Anchors& anchors, const KnownPlaceOptions& options)
-      : keyframes_(keyframes),
-        constraints_(constraints),
-        links_(links),
-        anchors_(anchors),
-        options_(options) {}
+              const GraphLinks& links, const KnownPlaceOptions& options)
+      : keyframes_(keyframes), constraints_(constraints), links_(links), options_(options) {}
 
   /// The keyframe that knew what this one saw, and is kept itself; nothing if there is none.
   std::optional<int> AnchorOf(int id) const;
@@ -44,13 +40,12 @@ class KnownPlaces {
   const Keyframes& keyframes_;
   const std::vector<GraphConstraint>& constraints_;
   const GraphLinks& links_;
-  const Anchors& anchors_;
   const KnownPlaceOptions& options_;
 };
 
-/// The constraints between the keyframes that are not anchored: places that were recognised, and
+/// The constraints between the keyframes that are not let go: places that were recognised, and
 /// the way from one such keyframe to the next. `constraints` hold the ways in the order of time.
-std::vector<GraphConstraint> Without(const Anchors& anchors,
+std::vector<GraphConstraint> Without(const Anchors& let_go,
                                      const std::vector<GraphConstraint>& constraints);
 
 }  // namespace scan_image_slam

@@ -58,7 +58,7 @@ class LoopCloser {
     return {keyframes_,
             poses_,
             constraints_,
-            anchors_,
+            let_go(),
             submaps_,
             next_to_release_,
             closures_since_optimization_};
@@ -89,9 +89,8 @@ class LoopCloser {
   bool Contradicted(const GraphConstraint& constraint, double deviation) const;
   bool TakeBack();
   void ReleaseKnown();
-  void LeaveOutKnown();
-  void LetGo();
-  bool IsInSubmap(int id) const;
+  void LetKnownGo();
+  void LetGo(int id);
   double WayAt(int id) const { return keyframes_.at(id)->way; }
 
   LoopCloserOptions options_;
@@ -99,10 +98,10 @@ class LoopCloser {
   GraphPoses poses_;
   std::vector<GraphConstraint> constraints_;
   GraphLinks links_;
-  Anchors anchors_;  ///< of keyframes that the graph does without
   struct LetGoKeyframe {
     int id = 0;
     int latest = 0;  ///< keyframe at that time
+    AttachedPose anchor;
   };
   std::deque<LetGoKeyframe> let_go_;  ///< in the order of time
   int closures_ = 0;

@@ -24,7 +24,7 @@ inline Pose2 MapFromBase(const AttachedPose& pose, const GraphPoses& keyframe_po
   return keyframe_poses.at(pose.keyframe) * pose.keyframe_from_base;
 }
 
-/// Where keyframes that the graph does without lie to others, by number.
+/// Where keyframes that were let go lie to others, by number.
 using Anchors = std::map<int, AttachedPose>;
 
 /// What hangs on a keyframe that was let go hangs on the anchor of that from now on.
@@ -34,10 +34,11 @@ inline AttachedPose Reattached(const AttachedPose& pose, const Anchors& let_go) 
   return {anchor->second.keyframe, anchor->second.keyframe_from_base * pose.keyframe_from_base};
 }
 
-/// Keyframes begin .. end - 1.
+/// The keyframes from number `begin` to `end` - 1, as far as they are kept.
 struct KeyframeRange {
   int begin = 0;
   int end = 0;
+  double way = 0.0;  ///< driven from the first keyframe of all to number `begin` [m]
 };
 
 /// A scan in the occupancy grid.
@@ -52,20 +53,11 @@ struct GraphMemory {
   Keyframes keyframes;
   GraphPoses poses;  ///< of each keyframe
   std::vector<GraphConstraint> constraints;
-  Anchors anchors;  ///< of what the graph does without, as long as something hangs on it
+  Anchors let_go;  ///< keyframes that are not kept, as long as something hangs on them
   std::map<int, KeyframeRange> submaps;  ///< by number, in the order of time
   int next_to_release = 0;               ///< keyframes before it have been judged
   int closures_since_optimization = 0;   ///< of the whole graph
 };
-
-/// Anchors of keyframes that the graph holds no more.
-inline Anchors LetGo(const GraphMemory& graph) {
-  Anchors let_go;
-  for (const auto& [id, anchor] : graph.anchors) {
-    if (graph.keyframes.count(id) == 0) let_go[id] = anchor;
-  }
-  return let_go;
-}
 
 /// Where a chain of matches lay in the map when its match of `stamp` came.
 struct KnownChain {
