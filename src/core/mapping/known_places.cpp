@@ -3,19 +3,35 @@
 #include <cmath>
 
 namespace scan_image_slam {
-/// True if a constraint shows that the place of a keyframe was known.
-bool KnownPlaces::Shows(const GraphConstraint& c, int id) const {
-  return c.closes_loop() && c.to == id && c.overlap >= options_.min_overlap &&
-         c.from_from_to.translation().norm() <= options_.max_distance &&
-         std::abs(c.from_from_to.theta) <= options_.max_angle &&
-         !keyframes_.at(c.from)->points.empty();
+bool KnownPlaces::IsNear(const Pose2& from_from_to) const {
+  return from_from_to.translation().norm() <= options_.max_distance &&
+         std::abs(NormalizeAngle(from_from_to.theta)) <= options_.max_angle;
+}
+
+/// True if so many keyframes before this one are kept with what they saw from nearly its pose.
+bool KnownPlaces::HasManyViews(int id) const {
+  const Pose2 base_from_map = poses_.at(id).Inverse();
+  int views = 0;
+  auto pose = poses_.begin();
+  for (auto kept = keyframes_.begin(); kept->first < id; ++kept, ++pose) {
+    if (!kept->second->points.empty() && IsNear(base_from_map * pose->second)) ++views;
+  }
+  return views >= options_.max_views;
 }
 
 std::optional<int> KnownPlaces::AnchorOf(int id) const {
+  std::optional<int> beside;  // which does not know all that was seen
   for (const GraphLink& link : links_.at(id)) {
-    if (Shows(constraints_[link.constraint], id)) return link.node;
+    const GraphConstraint& c = constraints_[link.constraint];
+    if (!c.closes_loop() || c.to != id || keyframes_.at(c.from)->points.empty() ||
+        c.from_from_to.translation().norm() > options_.max_distance) {
+      continue;
+    }
+    if (c.overlap >= options_.min_overlap && IsNear(c.from_from_to)) return c.from;
+    beside = c.from;
   }
-  return std::nullopt;
+  const bool is_judged = keyframes_.at(id)->points.empty();
+  return beside && (is_judged || HasManyViews(id)) ? beside : std::nullopt;
 }
 
 /// True as well if it was let go.

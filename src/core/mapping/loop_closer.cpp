@@ -270,7 +270,7 @@ bool LoopCloser::TakeBack() {
 /// Lets go what keyframes saw of known places, as soon as no query asks for it, and the submaps of
 /// which nothing is left.
 void LoopCloser::ReleaseKnown() {
-  const KnownPlaces places(keyframes_, constraints_, links_, options_.known_places);
+  const KnownPlaces places(keyframes_, poses_, constraints_, links_, options_.known_places);
   const double way = keyframes_.rbegin()->second->way - options_.query_way;
   const int judged = next_to_release_;
   for (; WayAt(next_to_release_) < way; ++next_to_release_) {
@@ -296,7 +296,7 @@ void LoopCloser::ReleaseKnown() {
 
 /// Lets go what says nothing new: the graph would grow for as long as the robot drives.
 void LoopCloser::LetKnownGo() {
-  const KnownPlaces places(keyframes_, constraints_, links_, options_.known_places);
+  const KnownPlaces places(keyframes_, poses_, constraints_, links_, options_.known_places);
   const int latest = keyframes_.rbegin()->first;
   Anchors needless;
   for (const auto& [id, keyframe] : keyframes_) {

@@ -18,6 +18,7 @@ class FourVisits : public ::testing::Test {
       keyframe->id = id;
       if (id < kPlaces) keyframe->points.resize(10);
       keyframes_[id] = keyframe;
+      poses_[id] = {1.0 * (id % kPlaces), 0.1 * (id / kPlaces), 0.1};
       if (id > 0) Join(id - 1, id, false);
       if (id >= kPlaces) Join(id % kPlaces, id, true);
     }
@@ -41,9 +42,19 @@ class FourVisits : public ::testing::Test {
     }
     throw std::logic_error("no closure");
   }
-  KnownPlaces Places() const { return KnownPlaces(keyframes_, constraints_, links_, options_); }
+  KnownPlaces Places() const {
+    return KnownPlaces(keyframes_, poses_, constraints_, links_, options_);
+  }
+
+  /// As if it had not been judged yet.
+  void SeesSomething(int id) {
+    auto keyframe = std::make_shared<Keyframe>(*keyframes_.at(id));
+    keyframe->points.resize(10);
+    keyframes_[id] = keyframe;
+  }
 
   Keyframes keyframes_;
+  GraphPoses poses_;
   std::vector<GraphConstraint> constraints_;
   GraphLinks links_;
   KnownPlaceOptions options_;
@@ -56,12 +67,39 @@ TEST_F(FourVisits, TheFirstVisitKnowsThePlaceOfTheLater) {
 }
 
 TEST_F(FourVisits, AKeyframeThatSawMoreOrElsewhereIsNotKnown) {
+  for (const int id : {3, 4, 5}) SeesSomething(id);
+  EXPECT_EQ(Places().AnchorOf(3), 0);
   Closure(3).overlap = 0.85;
   EXPECT_FALSE(Places().AnchorOf(3));
   Closure(4).from_from_to = {0.4, 0.4, 0.0};
   EXPECT_FALSE(Places().AnchorOf(4));
   Closure(5).from_from_to = {0.0, 0.0, -0.6};
   EXPECT_FALSE(Places().AnchorOf(5));
+}
+
+TEST_F(FourVisits, OfAPlaceThatIsSeenAnewEachTimeAFewViewsAreKept) {
+  for (int id = 3; id < kKeyframes; ++id) {
+    SeesSomething(id);
+    Closure(id).overlap = 0.85;
+  }
+  options_.max_views = 3;
+  EXPECT_FALSE(Places().AnchorOf(7));  // two before it
+  EXPECT_EQ(Places().AnchorOf(10), 1);
+  poses_[7].theta += 0.6;
+  EXPECT_FALSE(Places().AnchorOf(10)) << "a view in another direction is another view";
+  poses_[7].theta -= 0.6;
+  poses_[7].x += 0.6;
+  EXPECT_FALSE(Places().AnchorOf(10)) << "from elsewhere, too";
+  poses_[7].x -= 0.6;
+  Closure(10).from_from_to = {0.4, 0.4, 0.0};
+  EXPECT_FALSE(Places().AnchorOf(10)) << "nobody near knows it";
+  Closure(10).from_from_to = {0.1, 0.1, 3.0};
+  EXPECT_EQ(Places().AnchorOf(10), 1);
+}
+
+TEST_F(FourVisits, WhatWasJudgedOnceStaysKnown) {
+  Closure(4).overlap = 0.85;
+  EXPECT_EQ(Places().AnchorOf(4), 1);
 }
 
 TEST_F(FourVisits, OneThatWasLetGoKnowsNoPlace) {
@@ -79,6 +117,8 @@ TEST_F(FourVisits, TheGraphIsTheBetterForThreeVisitsMore) {
 
 TEST_F(FourVisits, NeighboursHoldTheGraphTogether) {
   options_.max_visits = 2;
+  for (const int id : {9, 11}) SeesSomething(id);
+  EXPECT_TRUE(Places().IsNeedless(10));
   Closure(11).overlap = 0.5;
   EXPECT_FALSE(Places().IsNeedless(10));
   Closure(11).overlap = 0.95;

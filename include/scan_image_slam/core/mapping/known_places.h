@@ -14,16 +14,23 @@ struct KnownPlaceOptions {
   double max_distance = 0.5;  ///< from a keyframe to the one that knows its place [m]
   double max_angle = 0.5;     ///< [rad]
   double min_overlap = 0.9;   ///< share of what it saw that was known there [-]
+  int max_views = 5;          ///< kept of one place, whatever else was seen from there
   int max_visits = 3;         ///< of one place that the graph is the better for
 };
 
 /// Tells which keyframes have brought nothing new: what they saw had been seen from nearly the same
-/// pose before. A view for the moment of what a LoopCloser holds; it keeps references.
+/// pose before, or as many others were kept of it as are of use. A view for the moment of what a
+/// LoopCloser holds; it keeps references.
 class KnownPlaces {
  public:
-  KnownPlaces(const Keyframes& keyframes, const std::vector<GraphConstraint>& constraints,
-              const GraphLinks& links, const KnownPlaceOptions& options)
-      : keyframes_(keyframes), constraints_(constraints), links_(links), options_(options) {}
+  KnownPlaces(const Keyframes& keyframes, const GraphPoses& poses,
+              const std::vector<GraphConstraint>& constraints, const GraphLinks& links,
+              const KnownPlaceOptions& options)
+      : keyframes_(keyframes),
+        poses_(poses),
+        constraints_(constraints),
+        links_(links),
+        options_(options) {}
 
   /// The keyframe that knew what this one saw, and is kept itself; nothing if there is none.
   std::optional<int> AnchorOf(int id) const;
@@ -34,10 +41,12 @@ class KnownPlaces {
   bool IsNeedless(int id) const;
 
  private:
-  bool Shows(const GraphConstraint& constraint, int id) const;
+  bool IsNear(const Pose2& from_from_to) const;
+  bool HasManyViews(int id) const;
   bool IsKnown(int id) const;
 
   const Keyframes& keyframes_;
+  const GraphPoses& poses_;
   const std::vector<GraphConstraint>& constraints_;
   const GraphLinks& links_;
   const KnownPlaceOptions& options_;
