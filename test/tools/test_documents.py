@@ -17,7 +17,7 @@ DOCUMENTS = ["README.md", "docs/architecture.md", "docs/live.md", "docs/migratio
 NODES = ("scan_image_fusion", "bounded_icp", "mapper")
 TOOLS = ["slam_offline", "simulate", "evaluate_trajectory", "evaluate_relations",
          "list_parameters", "reproduce_table1", "coreslam_offline", "calibrate_camera_laser",
-         "check_bag", "measure_latency", "evaluate_map"]
+         "check_bag", "measure_latency", "soak.py", "evaluate_map"]
 ENDINGS = ("md", "rst", "sh", "py", "h", "cpp", "launch", "rviz", "msg", "srv", "test")
 
 
@@ -68,7 +68,7 @@ def parameters():
 def node_names(kind):
     """Topics or services that the sources of the nodes name."""
     calls = {"topic": r"(?:advertise|subscribe)(?:<[^>]*>)?\(\s*(?:node, )?\"([^\"]+)\"",
-             "service": r"advertiseService\(\s*\"([^\"]+)\""}
+             "service": r"(?:advertiseService|files_\.Advertise<[^>]*>)\(\s*\"([^\"]+)\""}
     sources = glob.glob(os.path.join(SOURCE, "src", "ros", "*.cpp"))
     sources += glob.glob(os.path.join(SOURCE, "src", "nodes", "*.cpp"))
     text = "\n".join(read(path) for path in sorted(sources))

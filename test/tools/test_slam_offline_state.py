@@ -61,10 +61,11 @@ class SlamOfflineState(ToolTest):
         content = read(self.state, "rb")
         cut = self.write("cut.state", content[:1000], "wb")
         damaged = self.write("damaged.state", content[:-1] + bytes([content[-1] ^ 1]), "wb")
-        newer = self.write("newer.state", content[:8] + b"\3" + content[9:], "wb")
+        version = content[8] + 1
+        newer = self.write("newer.state", content[:8] + bytes([version]) + content[9:], "wb")
         for path, words in ((cut, ("at byte 1000", "%d bytes too early" % (len(content) - 1000))),
                             (damaged, ("damaged", "check sum")),
-                            (newer, ("at byte 8", "version is 3")),
+                            (newer, ("at byte 8", "version is %d" % version)),
                             (self.bag, ("at byte 0", "no state of a map")),
                             (self.path("none.state"), ("No such file",))):
             with self.subTest(path=path):
