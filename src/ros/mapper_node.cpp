@@ -6,6 +6,7 @@
 #include "scan_image_slam/ros/sensor_conversions.h"
 #include "scan_image_slam/ros/slam_messages.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -108,9 +109,15 @@ void MapperNode::PublishPose(const MapPose& pose) {
   if (pose.map_from_odom) {
     has_encoders_ = true;
     transform_publisher_.Set(options_.node.odom_frame, *pose.map_from_odom);
-  } else if (!has_encoders_) {
+  } else if (!has_encoders_ && EncodersAreMissing(pose.stamp)) {
     transform_publisher_.Set(options_.node.base_frame, pose.map_from_base);
   }
+}
+
+bool MapperNode::EncodersAreMissing(Stamp stamp) {
+  constexpr double kPatience = 1.0;  // with odometry that is connected after the laser [s]
+  if (!without_encoders_since_) without_encoders_since_ = stamp;
+  return std::fabs(Seconds(stamp - *without_encoders_since_)) >= kPatience;
 }
 
 void MapperNode::OnMatchedModel(const IcpModelConstPtr& model, const ScanMatchConstPtr& match) {

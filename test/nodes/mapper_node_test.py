@@ -4,6 +4,7 @@
 import math
 import os
 import shutil
+import time
 import unittest
 
 import numpy
@@ -158,6 +159,32 @@ class MapperNodeTest(unittest.TestCase):
                     abs(t.transform.translation.y - expected[1]) < 1e-6 and
                     abs(yaw_of(t.transform.rotation) - expected[2]) < 1e-6)
         self.transforms.find(is_expected, f'the transform {expected}')
+
+    def feed(self, space, moments):
+        """Matches alone, at {seconds: what the encoders say, or None}, all at the same place."""
+        match = publisher(space + 'scan_match', ScanMatch)
+        poses = Recorder(space + 'pose', PoseWithCovarianceStamped).wait_connected()
+        wait_for(lambda: match.get_num_connections() > 0, 'the mapper of ' + space)
+        for seconds, odom in moments.items():
+            match.publish(make_match(START + seconds, START, (0.0, 0.0, 0.0), odom))
+            poses.at(START + seconds)
+
+    def parents(self, child):
+        return {t.header.frame_id for t in self.transforms.messages if t.child_frame_id == child}
+
+    def test_without_encoders_the_base_is_in_the_map(self):
+        self.feed('without/', {0.0: None, 0.5: None})
+        time.sleep(0.3)  # six times the period of the transforms
+        self.assertEqual(self.parents('carried'), set())
+        self.feed('without/', {1.0: None})
+        wait_for(lambda: self.parents('carried') == {'map'}, 'map -> carried')
+
+    def test_late_encoders_leave_the_base_its_one_parent(self):
+        self.feed('late/', {0.0: None, 0.5: None, 0.9: (1.0, 0.0, 0.0), 2.5: None})
+        self.transforms.find(lambda t: t.child_frame_id == 'late_odom' and
+                             abs(t.transform.translation.x + 1.0) < 1e-6, 'map -> late_odom')
+        time.sleep(0.3)
+        self.assertEqual(self.parents('late_base'), set())
 
     def test_the_map_shows_the_room(self):
         metadata = Recorder('map_metadata', MapMetaData)

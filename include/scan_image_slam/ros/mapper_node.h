@@ -66,6 +66,8 @@ class MapperNode {
   void Autosave();
   void FinishAutosave();
   void PublishPose(const MapPose& pose);
+  /// Not only late: base_frame, which has its parent from them, must not get a second one.
+  bool EncodersAreMissing(Stamp stamp);
   void ApplyNews();
   void ApplyLocation(const Location& location);
   void StartOver();
@@ -79,6 +81,7 @@ class MapperNode {
   bool trajectory_moved_ = false;  ///< the path is to be told anew, with the next map
   bool paused_ = false;
   bool has_encoders_ = false;
+  std::optional<Stamp> without_encoders_since_;  ///< of the first pose
   std::optional<MapPose> last_pose_;
   double agreement_ = 0.0;       ///< of the last scan that was looked for in a loaded map [-]
   bool changed_ = false;         ///< the map, since it was last saved on its own
