@@ -78,6 +78,9 @@ run_sanitize() {
   local tools=$sanitized/devel/lib/scan_image_slam
   "$build/devel/lib/scan_image_slam/simulate" --world laboratory --out "$logs/run.bag" --duration 3
   "$tools/slam_offline" --bag "$logs/run.bag" --out "$logs/run"
+  # The live graph. The manager of nodelets is a program of ROS, so the sanitizers are loaded before.
+  LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" \
+    run_ctest "$sanitized" -R 'test_nodes_(whole_graph|whole_graph_nodelets|mapper_state)\.test'
   # What shares its data with another thread; of ROS only the nodes do (docs/architecture.md).
   BUILD_TARGETS=core_mapping_test "$here/build.sh" "$threaded" -DSCAN_IMAGE_SLAM_SANITIZE=thread \
     "${flags[@]}"

@@ -1,6 +1,7 @@
 #include "scan_image_slam/ros/side_thread.h"
 
 #include <chrono>
+#include <cstdint>
 #include <future>
 #include <memory>
 #include <stdexcept>
@@ -38,9 +39,13 @@ void SideThread::InNodeThread(const std::function<void()>& work) {
   constexpr std::chrono::milliseconds kPatience(20);
   std::packaged_task<void()> task(work);
   std::future<void> done = task.get_future();
-  node_.getCallbackQueue()->addCallback(boost::make_shared<QueuedWork>(std::move(task)));
+  ros::CallbackQueueInterface* const queue = node_.getCallbackQueue();
+  const auto id = reinterpret_cast<std::uintptr_t>(this);
+  queue->addCallback(boost::make_shared<QueuedWork>(std::move(task)), id);
   while (done.wait_for(kPatience) != std::future_status::ready) {
-    if (ends_) throw std::runtime_error("the node is being shut down");
+    if (!ends_) continue;
+    queue->removeByID(id);  // so that it never runs when what it uses is gone
+    throw std::runtime_error("the node is being shut down");
   }
   done.get();
 }
