@@ -103,6 +103,35 @@ TEST_F(OdometryGateTest, EncodersThatHaveReachedAScanAreWaitedForAgain) {
   EXPECT_FALSE(PopAt(kNow + 50 * kMs));
 }
 
+// Readings each 30 ms, the last one 1 ms before the scan's stamp.
+TEST_F(OdometryGateTest, AScanDoesNotWaitForAReadingThatWillBeLate) {
+  for (int i = -2; i <= 0; ++i) {
+    AddReading(&odometry_, kScan + (30 * i - 1) * kMs);
+    EXPECT_FALSE(PopAt(kNow + 30 * i * kMs));
+  }
+  gate_.Push(1, kScan, kNow + 9 * kMs);  // the next comes 21 ms later
+  EXPECT_EQ(PopAt(kNow + 9 * kMs), 1);
+  gate_.Push(2, kScan, kNow + 11 * kMs);  // or 19 ms
+  EXPECT_FALSE(PopAt(kNow + 11 * kMs));
+  AddReading(&odometry_, kScan + 29 * kMs);
+  EXPECT_EQ(PopAt(kNow + 30 * kMs), 2);
+  // The one after the next.
+  gate_.Push(3, kScan + 60 * kMs, kNow + 55 * kMs);
+  EXPECT_EQ(PopAt(kNow + 55 * kMs), 3);
+  gate_.Push(4, kScan + 60 * kMs, kNow + 71 * kMs);
+  EXPECT_FALSE(PopAt(kNow + 71 * kMs));
+}
+
+TEST_F(OdometryGateTest, AReadingThatIsOverdueIsWaitedFor) {
+  for (int i = -2; i <= 0; ++i) {
+    AddReading(&odometry_, kScan + (30 * i - 1) * kMs);
+    EXPECT_FALSE(PopAt(kNow + 30 * i * kMs));
+  }
+  gate_.Push(1, kScan, kNow + 33 * kMs);
+  EXPECT_FALSE(PopAt(kNow + 52 * kMs));
+  EXPECT_EQ(PopAt(kNow + 53 * kMs), 1);
+}
+
 TEST_F(OdometryGateTest, ScansLeaveInTheOrderInWhichTheyCame) {
   AddReading(&odometry_, kScan + 5 * kMs);
   gate_.Push(1, kScan + 10 * kMs, kNow);

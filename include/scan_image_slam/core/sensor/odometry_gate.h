@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scan_image_slam/core/sensor/odometry_buffer.h"
+#include "scan_image_slam/core/sensor/reading_pace.h"
 #include "scan_image_slam/core/sensor/stamp.h"
 
 #include <deque>
@@ -9,8 +10,9 @@
 
 namespace scan_image_slam {
 
-/// Holds scans until the encoders have reached their stamp, but not for long: scans and encoders
-/// come by different ways, and neither order is wrong. Scans leave in the order in which they came.
+/// Holds scans until the encoders have reached their stamp, but not for long, and not at all if the
+/// encoders, which come at an even pace, will not get there in time: scans and encoders come by
+/// different ways, and neither order is wrong. Scans leave in the order in which they came.
 template <typename Item>
 class OdometryGate {
  public:
@@ -29,15 +31,23 @@ class OdometryGate {
     }
   }
 
-  /// The next scan that need not wait any longer, if there is one.
+  /// The next scan that need not wait any longer, if there is one. To be called for each scan and
+  /// for each reading of the encoders.
   std::optional<Item> Pop(Stamp now, const OdometryBuffer& odometry) {
+    if (!odometry.empty()) pace_.Watch(odometry.newest_stamp(), now);
     if (waiting_.empty()) return std::nullopt;
     const bool reached = !odometry.empty() && odometry.newest_stamp() >= waiting_.front().stamp;
     const bool waited = Seconds(now - waiting_.front().arrival) >= max_wait_;
     // Encoders that have let the last scan wait in vain, and have said nothing since, are silent.
     const bool silent = silent_since_ && *silent_since_ == odometry.newest_stamp();
-    if (!reached && !waited && !silent) return std::nullopt;
-    silent_since_ = reached ? std::nullopt : std::optional<Stamp>(odometry.newest_stamp());
+    const std::optional<Stamp> due = pace_.Due(waiting_.front().stamp);
+    const bool in_vain = due && Seconds(*due - waiting_.front().arrival) > max_wait_;
+    if (!reached && !waited && !silent && !in_vain) return std::nullopt;
+    if (reached) {
+      silent_since_.reset();
+    } else if (waited) {
+      silent_since_ = odometry.newest_stamp();
+    }
     std::optional<Item> item(std::move(waiting_.front().item));
     waiting_.pop_front();
     return item;
@@ -54,6 +64,7 @@ class OdometryGate {
   void Clear() {
     waiting_.clear();
     silent_since_.reset();
+    pace_ = ReadingPace();
   }
 
  private:
@@ -64,6 +75,7 @@ class OdometryGate {
   };
   double max_wait_;
   std::size_t max_items_;
+  ReadingPace pace_;
   std::deque<Waiting> waiting_;
   std::optional<Stamp> silent_since_;
   int dropped_ = 0;
