@@ -23,6 +23,14 @@ class OdometryGateTest : public ::testing::Test {
 
   std::optional<int> PopAt(Stamp now) { return gate_.Pop(now, odometry_); }
 
+  /// Readings each 30 ms, the last one 1 ms before the scan's stamp.
+  void ReadEvenly() {
+    for (int i = -8; i <= 0; ++i) {
+      AddReading(&odometry_, kScan + (30 * i - 1) * kMs);
+      EXPECT_FALSE(PopAt(kNow + 30 * i * kMs));
+    }
+  }
+
   /// Scan 1 has waited for encoders that did not come.
   void LetOneWaitInVain() {
     gate_.Push(1, kScan, kNow);
@@ -103,12 +111,8 @@ TEST_F(OdometryGateTest, EncodersThatHaveReachedAScanAreWaitedForAgain) {
   EXPECT_FALSE(PopAt(kNow + 50 * kMs));
 }
 
-// Readings each 30 ms, the last one 1 ms before the scan's stamp.
 TEST_F(OdometryGateTest, AScanDoesNotWaitForAReadingThatWillBeLate) {
-  for (int i = -2; i <= 0; ++i) {
-    AddReading(&odometry_, kScan + (30 * i - 1) * kMs);
-    EXPECT_FALSE(PopAt(kNow + 30 * i * kMs));
-  }
+  ReadEvenly();
   gate_.Push(1, kScan, kNow + 9 * kMs);  // the next comes 21 ms later
   EXPECT_EQ(PopAt(kNow + 9 * kMs), 1);
   gate_.Push(2, kScan, kNow + 11 * kMs);  // or 19 ms
@@ -116,20 +120,29 @@ TEST_F(OdometryGateTest, AScanDoesNotWaitForAReadingThatWillBeLate) {
   AddReading(&odometry_, kScan + 29 * kMs);
   EXPECT_EQ(PopAt(kNow + 30 * kMs), 2);
   // The one after the next.
-  gate_.Push(3, kScan + 60 * kMs, kNow + 55 * kMs);
-  EXPECT_EQ(PopAt(kNow + 55 * kMs), 3);
-  gate_.Push(4, kScan + 60 * kMs, kNow + 71 * kMs);
+  gate_.Push(3, kScan + 69 * kMs, kNow + 69 * kMs);
+  EXPECT_EQ(PopAt(kNow + 69 * kMs), 3);
+  gate_.Push(4, kScan + 69 * kMs, kNow + 71 * kMs);
   EXPECT_FALSE(PopAt(kNow + 71 * kMs));
 }
 
 TEST_F(OdometryGateTest, AReadingThatIsOverdueIsWaitedFor) {
-  for (int i = -2; i <= 0; ++i) {
-    AddReading(&odometry_, kScan + (30 * i - 1) * kMs);
-    EXPECT_FALSE(PopAt(kNow + 30 * i * kMs));
-  }
+  ReadEvenly();
   gate_.Push(1, kScan, kNow + 33 * kMs);
   EXPECT_FALSE(PopAt(kNow + 52 * kMs));
   EXPECT_EQ(PopAt(kNow + 53 * kMs), 1);
+}
+
+// As they do in recordings where both have the stamps of one clock.
+TEST_F(OdometryGateTest, AReadingWithTheStampOfTheScanIsWaitedFor) {
+  constexpr Stamp kPeriod = 200 * kMs;
+  for (int i = 0; i < 30; ++i) {
+    const Stamp at = i * kPeriod + (i % 3) * 10 * kMs;
+    gate_.Push(i, kScan + at, kNow + at);
+    EXPECT_FALSE(PopAt(kNow + at)) << i;
+    AddReading(&odometry_, kScan + at);
+    EXPECT_EQ(PopAt(kNow + at), i);
+  }
 }
 
 TEST_F(OdometryGateTest, ScansLeaveInTheOrderInWhichTheyCame) {

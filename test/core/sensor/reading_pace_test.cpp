@@ -1,7 +1,5 @@
 #include "scan_image_slam/core/sensor/reading_pace.h"
 
-#include <initializer_list>
-
 #include <gtest/gtest.h>
 
 namespace scan_image_slam {
@@ -9,46 +7,61 @@ namespace {
 
 constexpr Stamp kMs = 1000000;
 // Stamps and arrivals are told by different clocks.
-constexpr Stamp kFirst = 5000 * kMs;
+constexpr Stamp kLast = 5000 * kMs;
 constexpr Stamp kNow = 9000 * kMs;
+constexpr int kEnough = 9;
 
-/// After readings of these stamps [ms since the first], each of which comes at once.
-ReadingPace PaceOf(std::initializer_list<int> readings) {
+/// So many readings, each 20 ms, the last one just now.
+ReadingPace EvenPace(int readings) {
   ReadingPace pace;
-  for (const int ms : readings) pace.Watch(kFirst + ms * kMs, kNow + ms * kMs);
+  for (int i = readings - 1; i >= 0; --i) pace.Watch(kLast - 20 * i * kMs, kNow - 20 * i * kMs);
   return pace;
 }
 
-TEST(ReadingPace, ForetellsNothingBeforeThreeReadings) {
-  EXPECT_FALSE(PaceOf({}).Due(kFirst));
-  EXPECT_FALSE(PaceOf({0}).Due(kFirst));
-  EXPECT_FALSE(PaceOf({0, 20}).Due(kFirst));
-  EXPECT_TRUE(PaceOf({0, 20, 40}).Due(kFirst));
-}
-
 TEST(ReadingPace, ForetellsTheReadingThatReachesAStamp) {
-  const ReadingPace pace = PaceOf({0, 20, 40});
-  EXPECT_EQ(pace.Due(kFirst + 40 * kMs), kNow + 40 * kMs);
-  EXPECT_EQ(pace.Due(kFirst + 40 * kMs + 1), kNow + 60 * kMs);
-  EXPECT_EQ(pace.Due(kFirst + 60 * kMs), kNow + 60 * kMs);
-  EXPECT_EQ(pace.Due(kFirst + 61 * kMs), kNow + 80 * kMs);
+  const ReadingPace pace = EvenPace(kEnough);
+  EXPECT_EQ(pace.Due(kLast + 1 * kMs), kNow + 20 * kMs);
+  EXPECT_EQ(pace.Due(kLast + 20 * kMs), kNow + 20 * kMs);
+  EXPECT_EQ(pace.Due(kLast + 26 * kMs), kNow + 40 * kMs);
+  EXPECT_EQ(pace.Due(kLast + 66 * kMs), kNow + 80 * kMs);
 }
 
-TEST(ReadingPace, IsThatOfTheShorterOfTwoIntervals) {
-  EXPECT_EQ(PaceOf({0, 20, 60}).Due(kFirst + 61 * kMs), kNow + 80 * kMs);
-  EXPECT_EQ(PaceOf({0, 40, 60}).Due(kFirst + 61 * kMs), kNow + 80 * kMs);
-  EXPECT_EQ(PaceOf({0, 20, 60, 100}).Due(kFirst + 101 * kMs), kNow + 140 * kMs);
+// A scan may have the stamp of a reading that comes a little later than is usual.
+TEST(ReadingPace, AStampJustAfterAReadingMayBeThatOfTheReading) {
+  EXPECT_EQ(EvenPace(kEnough).Due(kLast + 24 * kMs), kNow + 20 * kMs);
+}
+
+TEST(ReadingPace, ForetellsNothingOfFewReadings) {
+  EXPECT_FALSE(ReadingPace().Due(kLast));
+  EXPECT_FALSE(EvenPace(kEnough - 1).Due(kLast));
+}
+
+TEST(ReadingPace, ForetellsNothingOfReadingsThatComeUnevenly) {
+  ReadingPace pace = EvenPace(kEnough);
+  pace.Watch(kLast + 24 * kMs, kNow + 24 * kMs);
+  EXPECT_TRUE(pace.Due(kLast + 25 * kMs));
+  pace.Watch(kLast + 50 * kMs, kNow + 50 * kMs);  // 26 ms later
+  EXPECT_FALSE(pace.Due(kLast + 51 * kMs));
+}
+
+TEST(ReadingPace, ForetellsTheEarliestArrival) {
+  ReadingPace pace = EvenPace(kEnough);
+  pace.Watch(kLast + 20 * kMs, kNow + 23 * kMs);
+  pace.Watch(kLast + 40 * kMs, kNow + 40 * kMs);  // 17 ms later
+  pace.Watch(kLast + 60 * kMs, kNow + 60 * kMs);
+  EXPECT_EQ(pace.Due(kLast + 61 * kMs), kNow + 77 * kMs);
 }
 
 TEST(ReadingPace, AReadingSeenTwiceIsOne) {
-  ReadingPace pace = PaceOf({0, 20, 40});
-  pace.Watch(kFirst + 40 * kMs, kNow + 55 * kMs);
-  EXPECT_EQ(pace.Due(kFirst + 41 * kMs), kNow + 60 * kMs);
+  ReadingPace pace = EvenPace(kEnough);
+  pace.Watch(kLast, kNow + 15 * kMs);
+  EXPECT_EQ(pace.Due(kLast + 1 * kMs), kNow + 20 * kMs);
 }
 
 TEST(ReadingPace, BeginsAnewWhereTimeGoesBack) {
-  EXPECT_FALSE(PaceOf({0, 20, 40, 10, 30}).Due(kFirst));
-  EXPECT_EQ(PaceOf({0, 20, 40, 10, 40, 70}).Due(kFirst + 71 * kMs), kNow + 100 * kMs);
+  ReadingPace pace = EvenPace(kEnough);
+  pace.Watch(kLast - 1000 * kMs, kNow + 20 * kMs);
+  EXPECT_FALSE(pace.Due(kLast));
 }
 
 }  // namespace
