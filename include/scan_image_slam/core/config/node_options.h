@@ -17,7 +17,7 @@ struct OdometryInput {
   std::string base_frame = "base_link";
   std::string odom_frame = "odom";
   OdometrySource source = OdometrySource::kAuto;
-  double max_wait = 0.005;  ///< a scan waits so long for the encoders to reach its stamp [s]
+  double max_wait = 0.003;  ///< a scan waits so long for the encoders to reach its stamp [s]
 };
 
 /// Pose of a sensor on the robot, if it is not taken from TF: x forward, y left, z up, for a camera
