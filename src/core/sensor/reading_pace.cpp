@@ -17,7 +17,6 @@ constexpr double kSlack = 0.25;
 
 void ReadingPace::Watch(Stamp newest, Stamp now) {
   if (!readings_.empty() && newest == readings_.back().stamp) return;
-  if (!readings_.empty() && newest < readings_.back().stamp) readings_.clear();
   readings_.push_back({newest, now});
   if (readings_.size() > kReadings) readings_.pop_front();
 }

@@ -58,7 +58,7 @@ TEST(ReadingPace, AReadingSeenTwiceIsOne) {
   EXPECT_EQ(pace.Due(kLast + 1 * kMs), kNow + 20 * kMs);
 }
 
-TEST(ReadingPace, BeginsAnewWhereTimeGoesBack) {
+TEST(ReadingPace, ForetellsNothingWhereTimeGoesBack) {
   ReadingPace pace = EvenPace(kEnough);
   pace.Watch(kLast - 1000 * kMs, kNow + 20 * kMs);
   EXPECT_FALSE(pace.Due(kLast));

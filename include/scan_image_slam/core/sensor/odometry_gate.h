@@ -64,7 +64,6 @@ class OdometryGate {
   void Clear() {
     waiting_.clear();
     silent_since_.reset();
-    pace_ = ReadingPace();
   }
 
  private:

@@ -14,7 +14,8 @@ class ReadingPace {
   void Watch(Stamp newest, Stamp now);
 
   /// The earliest time, by the clock of Watch, at which a reading of about this stamp or later is
-  /// to be expected. Nothing is foretold of readings that are few or come unevenly.
+  /// to be expected. Nothing is foretold of readings that are few or come unevenly, as where time
+  /// goes back.
   std::optional<Stamp> Due(Stamp stamp) const;
 
  private:
