@@ -45,15 +45,7 @@ OdometryBuffer::Result OdometryBuffer::Add(Stamp stamp, const Pose2& odom_from_b
   Pose2 motion = last_odom_from_base_.Inverse() * odom_from_base;
   const bool reset = motion.translation().norm() > options_.max_speed * step + kPositionSlack ||
                      std::abs(motion.theta) > options_.max_turn_rate * step + kAngleSlack;
-  if (reset) {
-    motion = Pose2{};
-    if (readings_.size() >= 2) {
-      const Reading& before = readings_[readings_.size() - 2];
-      const double fraction = std::min(dt, options_.max_extrapolation) / TimeBetween(before, last);
-      motion = Interpolate(
-          Pose2{}, before.continuous_from_base.Inverse() * last.continuous_from_base, fraction);
-    }
-  }
+  if (reset) motion = Move(NewestVelocity(), std::min(dt, options_.max_extrapolation));
   const Pose2 continuous_from_base = last.continuous_from_base * motion;
   if (reset) odom_from_continuous_ = odom_from_base * continuous_from_base.Inverse();
   readings_.push_back({stamp, continuous_from_base});
@@ -76,10 +68,7 @@ std::optional<Pose2> OdometryBuffer::ContinuousPose(Stamp stamp) const {
   if (stamp >= newest.stamp) {
     const double ahead = Seconds(stamp - newest.stamp);
     if (ahead > options_.max_extrapolation) return std::nullopt;
-    if (readings_.size() < 2 || ahead == 0.0) return newest.continuous_from_base;
-    const Reading& before = readings_[readings_.size() - 2];
-    return Interpolate(before.continuous_from_base, newest.continuous_from_base,
-                       1.0 + ahead / TimeBetween(before, newest));
+    return newest.continuous_from_base * Move(NewestVelocity(), ahead);
   }
   const auto after =
       std::upper_bound(readings_.begin(), readings_.end(), stamp,
@@ -95,8 +84,16 @@ std::optional<Pose2> OdometryBuffer::OdomFromBase(Stamp stamp) const {
   return odom_from_continuous_ * *pose;
 }
 
-double OdometryBuffer::TimeBetween(const Reading& a, const Reading& b) const {
-  return std::max(Seconds(b.stamp - a.stamp), period_);
+Velocity2 OdometryBuffer::NewestVelocity() const {
+  // Over less time the resolution of the encoders would tell more than the motion does.
+  constexpr double kSpan = 0.1;  // [s]
+  if (readings_.size() < 2) return Velocity2{};
+  const Reading& newest = readings_.back();
+  auto before = readings_.end() - 2;
+  while (before != readings_.begin() && Seconds(newest.stamp - before->stamp) < kSpan) --before;
+  // Readings that were delayed on their way come close together.
+  const double span = std::max(Seconds(newest.stamp - before->stamp), period_);
+  return VelocityOf(before->continuous_from_base.Inverse() * newest.continuous_from_base, span);
 }
 
 void OdometryBuffer::Clear() {

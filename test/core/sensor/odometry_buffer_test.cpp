@@ -151,5 +151,14 @@ TEST(OdometryBuffer, JitteringStampsDoNotMakeTheRobotFlyOff) {
   EXPECT_LT(ahead->x, 0.60 + Limits(1.0).max_speed * 0.02);
 }
 
+// Encoders that count whole millimetres, at 25 mm/s: a step of one or none each 20 ms.
+TEST(OdometryBuffer, TheResolutionOfTheEncodersIsNotTakenForVelocity) {
+  OdometryBuffer buffer{OdometryOptions()};
+  constexpr Stamp kMs = 1000000;
+  for (int i = 0; i <= 8; ++i) buffer.Add(i * 20 * kMs, {0.001 * (i / 2), 0.0, 0.0});
+  // Over the last 100 ms 3 mm, in the last 20 ms 1 mm.
+  EXPECT_NEAR(buffer.ContinuousPose(180 * kMs)->x, 0.004 + 0.2 * 0.003, 1e-12);
+}
+
 }  // namespace
 }  // namespace scan_image_slam

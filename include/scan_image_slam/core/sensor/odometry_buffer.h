@@ -50,9 +50,8 @@ class OdometryBuffer {
     Stamp stamp;
     Pose2 continuous_from_base;
   };
-  /// Between two successive readings, to make a velocity: readings that were delayed on their way
-  /// come close together, and are taken to lie the usual period apart [s].
-  double TimeBetween(const Reading& a, const Reading& b) const;
+  /// By the last readings, in the frame of the base; zero before the second one.
+  Velocity2 NewestVelocity() const;
 
   OdometryOptions options_;
   std::deque<Reading> readings_;
