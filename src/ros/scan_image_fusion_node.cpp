@@ -1,6 +1,7 @@
 #include "scan_image_slam/ros/scan_image_fusion_node.h"
 
 #include "scan_image_slam/core/fusion/fusion_picture.h"
+#include "scan_image_slam/core/recording/number_text.h"
 #include "scan_image_slam/ros/image_conversion.h"
 #include "scan_image_slam/ros/node_parameters.h"
 #include "scan_image_slam/ros/publish_shared.h"
@@ -23,7 +24,8 @@ constexpr std::uint32_t kScanQueue = 20;  // half a second at the usual rates
 constexpr std::uint32_t kImageQueue = 2;
 constexpr std::uint32_t kModelQueue = 20;
 constexpr std::size_t kMaxWaitingScans = 20;
-constexpr double kEdgeHeight = 1.0;  // of a drawn edge [m]
+constexpr double kEdgeHeight = 1.0;    // of a drawn edge [m]
+constexpr double kMisfitPeriod = 5.0;  // between two looks at the calibration [s]
 
 Stamp SteadyNow() { return static_cast<Stamp>(ros::SteadyTime::now().toNSec()); }
 
@@ -34,6 +36,29 @@ std_msgs::ColorRGBA EdgeColour(int sign) {
   colour.b = sign > 0 ? 0.0f : 1.0f;
   colour.a = 1.0f;
   return colour;
+}
+
+/// What is wrong with the camera's calibration beyond doubt; empty: nothing.
+std::string Describe(const CameraMisfit& misfit) {
+  constexpr double kYaw = 0.3 * M_PI / 180.0;  // tolerated [rad]
+  constexpr double kTime = 0.01;               // tolerated [s]
+  constexpr double kCertain = 3.0;             // standard deviations
+  const auto beyond = [](double value, double tolerated, double stddev) {
+    return std::abs(value) > tolerated + kCertain * stddev;
+  };
+  std::string text;
+  if (beyond(misfit.yaw, kYaw, misfit.yaw_stddev)) {
+    text = "looked " + NumberText(Degrees(std::abs(misfit.yaw)), 1) + " deg farther to the " +
+           (misfit.yaw > 0.0 ? "left" : "right");
+  }
+  if (beyond(misfit.time_offset, kTime, misfit.time_offset_stddev)) {
+    text += (text.empty() ? "" : " and ") + std::string("took its pictures ") +
+            NumberText(1e3 * std::abs(misfit.time_offset), 0) + " ms " +
+            (misfit.time_offset > 0.0 ? "later" : "earlier");
+  }
+  if (text.empty()) return "";
+  return "edges lie beside the objects that the laser sees, as if the camera " + text +
+         " than it says: calibrate_camera_laser finds what is wrong";
 }
 
 }  // namespace
@@ -79,6 +104,12 @@ ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle p
   watch_.Expect(scan_subscriber_, "sensor_msgs/LaserScan", false);
   watch_.AddValue("scans dropped while waiting for encoders",
                   [this] { return std::to_string(gate_.dropped()); });
+  watch_.AddValue("camera yaw by edges on objects [deg]", [this] {
+    return misfit_ ? NumberText(Degrees(misfit_->yaw), 2) : std::string("not known");
+  });
+  watch_.AddValue("camera time offset by edges on objects [ms]", [this] {
+    return misfit_ ? NumberText(1e3 * misfit_->time_offset, 0) : std::string("not known");
+  });
 }
 
 /// A user has changed parameters: they count from the next scan on.
@@ -88,6 +119,7 @@ void ScanImageFusionNode::Take(const LiveParameters::Values& values) {
   fusion_.SetOptions(options.fusion);
   gate_.set_max_wait(options.node.odometry.max_wait);
   options_ = options;
+  ForgetCalibration();
 }
 
 void ScanImageFusionNode::SubscribeCamera(ros::NodeHandle node, const std::string& name) {
@@ -135,6 +167,7 @@ void ScanImageFusionNode::OnScan(const sensor_msgs::LaserScanConstPtr& message) 
         break;
     }
     if (!laser_mount_.Update(message->header.frame_id)) return;
+    if (laser_mount_.changed()) ForgetCalibration();
     fusion_.SetLaser(LaserMount::From(laser_mount_.base_from_sensor()));
     gate_.Push(scan, scan.stamp, SteadyNow());
     ReleaseScans();
@@ -147,6 +180,7 @@ void ScanImageFusionNode::StartOver() {
   ROS_WARN("time went back: starting over");
   fusion_.Reset();
   gate_.Clear();
+  ForgetCalibration();
 }
 
 void ScanImageFusionNode::OnCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
@@ -164,6 +198,7 @@ void ScanImageFusionNode::OnCameraInfo(const sensor_msgs::CameraInfoConstPtr& me
     if (!camera_mount_.changed() && text.str() == camera_info_text_) return;
     fusion_.SetCamera(ToCameraIntrinsics(*message), camera_mount_.base_from_sensor());
     camera_info_text_ = text.str();
+    ForgetCalibration();
     watch_.SetProblem(topic, "");
   } catch (const std::invalid_argument& error) {
     watch_.SetProblem(topic, std::string(error.what()) + "; going on without the camera");
@@ -205,6 +240,23 @@ void ScanImageFusionNode::Publish(const FusedModel& model) {
   if (!model.has_image) return;
   if (picture_publisher_.getNumSubscribers() > 0) PublishPicture(model);
   if (edges_publisher_.getNumSubscribers() > 0) PublishEdges(model);
+  WatchCalibration(model);
+}
+
+void ScanImageFusionNode::WatchCalibration(const FusedModel& model) {
+  calibration_watch_.Add(fusion_, model);
+  if (Seconds(model.stamp - misfit_stamp_) < kMisfitPeriod) return;
+  misfit_stamp_ = model.stamp;
+  misfit_ = calibration_watch_.Misfit();
+  watch_.SetProblem("camera calibration", misfit_ ? Describe(*misfit_) : "");
+}
+
+/// What was seen belongs to another calibration, or to another time.
+void ScanImageFusionNode::ForgetCalibration() {
+  calibration_watch_ = CalibrationWatch();
+  misfit_.reset();
+  misfit_stamp_ = 0;
+  watch_.SetProblem("camera calibration", "");
 }
 
 void ScanImageFusionNode::PublishPicture(const FusedModel& model) {

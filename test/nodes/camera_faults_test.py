@@ -1,35 +1,21 @@
 #!/usr/bin/env python3
 """A camera that is not as it should be: the node says so, goes on without it, and with it again."""
 
-import unittest
 
 import numpy
 import rospy
 import rostest
+from camera_support import CameraTest
 from diagnostic_msgs.msg import DiagnosticArray
-from live_support import (HEIGHT, START, WIDTH, Console, Recorder, make_camera_info, make_image,
-                          make_odometry, optical_transform, publisher, room_scan,
-                          static_transforms, transform, wait_for, wait_subscribed)
-from nav_msgs.msg import Odometry
-from scan_image_slam.msg import IcpModel
-from sensor_msgs.msg import CameraInfo, Image, LaserScan
+from live_support import (HEIGHT, WIDTH, Recorder, make_camera_info, make_image, make_odometry,
+                          room_scan, wait_for)
 
 
-class CameraFaultsTest(unittest.TestCase):
+class CameraFaultsTest(CameraTest):
     @classmethod
     def setUpClass(cls):
-        rospy.init_node('camera_faults_test')
-        cls.static = static_transforms(transform('base_link', 'laser', 0, 0, 0.3),
-                                       optical_transform('base_link', 'camera', 0, 0, 0.5))
-        cls.console = Console()
-        cls.scan = publisher('scan', LaserScan)
-        cls.odom = publisher('odom', Odometry)
-        cls.image = publisher('image_raw', Image)
-        cls.info = publisher('camera_info', CameraInfo)
+        super().setUpClass()
         cls.diagnostics = Recorder('/diagnostics', DiagnosticArray)
-        cls.models = Recorder('icp_model', IcpModel).wait_connected()
-        wait_subscribed(cls.scan, cls.odom, cls.image, cls.info)
-        cls.time = START
         cls.pixels = numpy.full((HEIGHT, WIDTH), 60, numpy.uint8)
         cls.pixels[:, 200:] = 180
 

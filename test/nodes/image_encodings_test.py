@@ -2,18 +2,16 @@
 """One coloured scene in every encoding that cameras use: the edges are the same."""
 
 import math
-import unittest
 
 import cv2
 import numpy
 import rospy
 import rostest
-from live_support import (FOCAL, HEIGHT, START, WIDTH, Console, Recorder, make_camera_info,
-                          make_image, make_odometry, optical_transform, publisher, room_scan,
-                          static_transforms, transform, wait_for, wait_subscribed)
-from nav_msgs.msg import Odometry
+from camera_support import CameraTest
+from live_support import (FOCAL, HEIGHT, WIDTH, Recorder, make_camera_info, make_image,
+                          make_odometry, publisher, room_scan, wait_for, wait_subscribed)
 from scan_image_slam.msg import IcpModel
-from sensor_msgs.msg import CameraInfo, CompressedImage, Image, LaserScan
+from sensor_msgs.msg import CompressedImage
 
 # Stripes from left to right: first column and colour (blue, green, red). Their columns are even, as
 # the cells of a mosaic are.
@@ -48,23 +46,14 @@ def yuv422(bgr, first):
     return packed
 
 
-class ImageEncodingsTest(unittest.TestCase):
+class ImageEncodingsTest(CameraTest):
     @classmethod
     def setUpClass(cls):
-        rospy.init_node('image_encodings_test')
-        cls.static = static_transforms(transform('base_link', 'laser', 0, 0, 0.3),
-                                       optical_transform('base_link', 'camera', 0, 0, 0.5))
-        cls.scan = publisher('scan', LaserScan)
-        cls.odom = publisher('odom', Odometry)
-        cls.info = publisher('camera_info', CameraInfo)
-        cls.image = publisher('image_raw', Image)
+        super().setUpClass()
         cls.compressed_image = publisher('image_raw/compressed', CompressedImage)
-        cls.console = Console()
-        cls.models = Recorder('icp_model', IcpModel).wait_connected()
         cls.compressed_models = Recorder('compressed/icp_model', IcpModel).wait_connected()
-        wait_subscribed(cls.scan, cls.odom, cls.info, cls.image, cls.compressed_image)
+        wait_subscribed(cls.compressed_image)
         wait_for(lambda: cls.scan.get_num_connections() == 2, 'both nodes')
-        cls.time = START
 
     def edges_of(self, image, image_publisher, models):
         """The strong edges of the first model with the image, as (column, sign)."""

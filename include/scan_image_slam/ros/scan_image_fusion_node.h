@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scan_image_slam/core/calibration/calibration_watch.h"
 #include "scan_image_slam/core/config/slam_parameters.h"
 #include "scan_image_slam/core/fusion/scan_image_fusion.h"
 #include "scan_image_slam/core/sensor/odometry_gate.h"
@@ -11,6 +12,7 @@
 #include "scan_image_slam/ros/wake_up.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <image_transport/image_transport.h>
@@ -48,10 +50,15 @@ class ScanImageFusionNode {
   void Publish(const FusedModel& model);
   void PublishPicture(const FusedModel& model);
   void PublishEdges(const FusedModel& model);
+  void WatchCalibration(const FusedModel& model);
+  void ForgetCalibration();
   void StartOver();
 
   Options options_;
   ScanImageFusion fusion_;
+  CalibrationWatch calibration_watch_;
+  std::optional<CameraMisfit> misfit_;
+  Stamp misfit_stamp_ = 0;  ///< of the scan at which it was looked at
   OdometryGate<LaserScan> gate_;
   InputWatch watch_;
   tf2_ros::Buffer tf_;
