@@ -140,6 +140,8 @@ void AddLocalMapMatcher(LocalMapMatcherOptions* o, ParameterSet* set) {
            "how wrong the distance of the encoders usually is, as a share; learned while driving");
   set->AddDegrees("filter/camera_yaw_stddev_deg", &o->filter.camera_yaw_stddev, {0.0, 10.0},
                   "how wrong the yaw of the camera may be; learned while driving");
+  set->Add("filter/max_new_slant", &o->filter.max_new_slant, "m/rad", kPositive,
+           "max_edge_slant for edges to begin with; less than that by more than its noise");
   set->Add("filter/edge_correlation", &o->filter.edge_correlation, "-", {1.0, 1e6},
            "edges of successive images that err together, as if they were one");
   set->Add("filter/edge_bias", &o->filter.edge_bias, "-", {0.0, 10.0},

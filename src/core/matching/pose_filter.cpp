@@ -1,5 +1,6 @@
 #include "scan_image_slam/core/matching/pose_filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -16,6 +17,7 @@ constexpr std::size_t kMostEdges = 40;     // at once; more would tell nothing n
 constexpr double kLeastInformation = 1.0;  // of a direction [1/m^2, 1/rad^2]
 constexpr double kLeastTilt = 0.01;        // what the normals of a scan are good for [rad]
 constexpr double kSmoothing = 0.1;         // share of the newest sight in an edge's precision
+constexpr double kPatience = 0.2;  // driven until a newcomer not seen again is forgotten [m]
 
 /// From (forward, left, turn) of the base to (x, y, turn) of the map.
 Eigen::Matrix3d MapFromBase(double heading) {
@@ -36,6 +38,7 @@ void PoseFilterOptions::Validate() const {
   const auto require = [](bool ok, const char* what) {
     if (!ok) throw std::invalid_argument(what);
   };
+  require(max_new_slant > 0.0, "max_new_slant must be positive");
   require(edge_correlation >= 1.0, "edge_correlation must be at least 1");
   require(edge_bias >= 0.0, "edge_bias must not be negative");
   require(scale_stddev >= 0.0, "scale_stddev must not be negative");
@@ -56,6 +59,7 @@ void PoseFilter::Start(const Pose2& map_from_base) {
   covariance_(kScale, kScale) = options_.scale_stddev * options_.scale_stddev;
   covariance_(kYaw, kYaw) = options_.camera_yaw_stddev * options_.camera_yaw_stddev;
   tracks_.clear();
+  newcomers_.clear();
 }
 
 void PoseFilter::Predict(const Pose2& map_from_last, const MotionPrediction& prediction,
@@ -144,10 +148,35 @@ int PoseFilter::AddEdges(const std::vector<ModelEdge>& edges) {
     tracks_[track].last_seen = way_;
     ++used;
   }
-  for (const ModelEdge* edge : unknown) {
-    if (tracks_.size() < kMostEdges) Begin(*edge);
-  }
+  Welcome(unknown);
   return used;
+}
+
+/// Where an edge comes nearer, the first image that shows it near enough is one whose noise shows
+/// it too near: it only announces the edge, which begins with the next image. Else all edges would
+/// begin too near, and the way along a corridor be too short by thousandths.
+void PoseFilter::Welcome(const std::vector<const ModelEdge*>& unknown) {
+  std::vector<Newcomer> newcomers;
+  for (const ModelEdge* edge : unknown) {
+    if (tracks_.size() >= kMostEdges) break;
+    if (WasMet(*edge)) {
+      Begin(*edge);
+    } else if (std::hypot(edge->range, edge->range_by_bearing) <= options_.max_new_slant) {
+      newcomers.push_back({PlaceOf(*edge), edge->sign, way_});
+    }
+  }
+  newcomers_.insert(newcomers_.end(), newcomers.begin(), newcomers.end());
+}
+
+/// True for an edge that was announced; it is no newcomer any more.
+bool PoseFilter::WasMet(const ModelEdge& edge) {
+  const Eigen::Vector2d place = PlaceOf(edge);
+  const auto newcomer = std::find_if(newcomers_.begin(), newcomers_.end(), [&](const Newcomer& n) {
+    return n.sign == edge.sign && (n.place - place).norm() < options_.edges.gate;
+  });
+  if (newcomer == newcomers_.end()) return false;
+  newcomers_.erase(newcomer);
+  return true;
 }
 
 Eigen::Matrix3d PoseFilter::PoseCovariance() const {
@@ -267,6 +296,9 @@ void PoseFilter::Begin(const ModelEdge& edge) {
 
 /// What has been out of view for a while leaves the filter.
 void PoseFilter::ForgetOld() {
+  newcomers_.erase(std::remove_if(newcomers_.begin(), newcomers_.end(),
+                                  [&](const Newcomer& n) { return n.seen < way_ - kPatience; }),
+                   newcomers_.end());
   std::vector<int> kept(kFirstEdge);
   std::iota(kept.begin(), kept.end(), 0);
   std::vector<Track> tracks;

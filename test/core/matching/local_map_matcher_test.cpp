@@ -161,6 +161,7 @@ TEST(LocalMapMatcher, FollowsEdgesAlongAPlainCorridor) {
   };
   LocalMapMatcher matcher{LocalMapMatcherOptions()};
   matcher.Start(seen_from(0.0), kOrigin);
+  matcher.Match(seen_from(0.0), kOrigin, Predicted(Pose2()));
   ASSERT_EQ(matcher.filter().edges(), 4);
   MotionPrediction prediction = Predicted({0.3, 0.0, 0.0});
   prediction.covariance = Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal();

@@ -3,6 +3,7 @@
 #include "scan_image_slam/core/matching/pose_filter.h"
 
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -41,6 +42,18 @@ inline ModelEdge EdgeTo(const Eigen::Vector2d& place, const Pose2& map_from_base
   edge.sign = sign;
   edge.weight = 1.0;
   return edge;
+}
+
+/// The range that the laser sees at a bearing on a wall along x, as the fusion gives it.
+inline void PutOnWall(double wall_y, const Pose2& map_from_base, ModelEdge* edge) {
+  const double heading = edge->bearing + map_from_base.theta;
+  edge->range = (wall_y - map_from_base.y) / std::sin(heading);
+  edge->range_by_bearing = -edge->range / std::tan(heading);
+}
+
+/// Two images: in the second the edges that are new begin.
+inline void Show(const std::vector<ModelEdge>& edges, PoseFilter* filter) {
+  for (int image = 0; image < 2; ++image) filter->AddEdges(edges);
 }
 
 }  // namespace scan_image_slam

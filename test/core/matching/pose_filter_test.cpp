@@ -107,13 +107,6 @@ TEST(PoseFilter, AMotionThatTheEncodersDoNotTellTeachesNothingOfThem) {
   EXPECT_EQ(filter.learned().encoder_scale, 1.0);
 }
 
-/// The range that the laser sees at a bearing on a wall along x, as the fusion gives it.
-void PutOnWall(double wall_y, const Pose2& map_from_base, ModelEdge* edge) {
-  const double heading = edge->bearing + map_from_base.theta;
-  edge->range = (wall_y - map_from_base.y) / std::sin(heading);
-  edge->range_by_bearing = -edge->range / std::tan(heading);
-}
-
 /// Drives along a corridor with edges every half metre on both walls; heading and the distance to
 /// the walls come from the laser, the way along from the camera alone.
 class CorridorDrive {
@@ -204,7 +197,7 @@ TEST(PoseFilter, ContradictsOnlyIfMostOfTheEdgesAreElsewhere) {
   std::vector<ModelEdge> edges;
   edges.reserve(places.size());
   for (const auto& place : places) edges.push_back(EdgeTo(place, Pose2()));
-  filter.AddEdges(edges);
+  Show(edges, &filter);
   EXPECT_FALSE(filter.Contradicts(edges));
   edges[0].bearing += 0.02;
   EXPECT_FALSE(filter.Contradicts(edges));
@@ -216,7 +209,8 @@ TEST(PoseFilter, ContradictsOnlyIfMostOfTheEdgesAreElsewhere) {
 TEST(PoseFilter, AnEdgeOfTheOtherSignIsAnotherOne) {
   PoseFilter filter(Options());
   filter.Start(Pose2());
-  EXPECT_EQ(filter.AddEdges({EdgeTo({2.0, 1.0}, Pose2(), 0.0, 1)}), 0);
+  Show({EdgeTo({2.0, 1.0}, Pose2(), 0.0, 1)}, &filter);
+  EXPECT_EQ(filter.AddEdges({EdgeTo({2.0, 1.0}, Pose2(), 0.0, -1)}), 0);
   EXPECT_EQ(filter.AddEdges({EdgeTo({2.0, 1.0}, Pose2(), 0.0, -1)}), 0);
   EXPECT_EQ(filter.edges(), 2);
   EXPECT_EQ(filter.AddEdges({EdgeTo({2.0, 1.0}, Pose2(), 0.0, 1)}), 1);
@@ -226,10 +220,10 @@ TEST(PoseFilter, AnEdgeOfTheOtherSignIsAnotherOne) {
 TEST(PoseFilter, BetweenGateAndSeparationItIsNeitherKnownNorNew) {
   PoseFilter filter(Options());
   filter.Start(Pose2());
-  filter.AddEdges({EdgeTo({2.0, 0.0}, Pose2())});
-  EXPECT_EQ(filter.AddEdges({EdgeTo({2.0, 0.12}, Pose2())}), 0);  // gate 0.1, separation 0.15
+  Show({EdgeTo({2.0, 0.0}, Pose2())}, &filter);
+  Show({EdgeTo({2.0, 0.12}, Pose2())}, &filter);  // gate 0.1, separation 0.15
   EXPECT_EQ(filter.edges(), 1);
-  EXPECT_EQ(filter.AddEdges({EdgeTo({2.0, 0.2}, Pose2())}), 0);
+  Show({EdgeTo({2.0, 0.2}, Pose2())}, &filter);
   EXPECT_EQ(filter.edges(), 2);
 }
 
@@ -238,7 +232,7 @@ TEST(PoseFilter, AnEdgeOutOfViewIsForgotten) {
   options.keep_distance = 1.0;
   PoseFilter filter(options);
   filter.Start(Pose2());
-  filter.AddEdges({EdgeTo({2.0, 1.0}, Pose2())});
+  Show({EdgeTo({2.0, 1.0}, Pose2())}, &filter);
   filter.Predict(Pose2(), Forward(0.9), kNothing * Eigen::Matrix3d::Identity());
   EXPECT_EQ(filter.edges(), 1);
   filter.Predict(filter.map_from_base(), Forward(0.2), kNothing * Eigen::Matrix3d::Identity());

@@ -24,7 +24,7 @@ struct ScanImageFusionOptions {
   OdometryOptions odometry;
   double max_image_age = 0.1;        ///< between the stamps of an image and of its scan [s]
   double camera_time_offset = 0.0;   ///< added to the stamps of the images [s]
-  double max_edge_slant = 17.0;      ///< of an edge in use: wall per angle of the view [m/rad]
+  double max_edge_slant = 21.0;      ///< of an edge in use: wall per angle of the view [m/rad]
   double edge_bearing_stddev = 0.1;  ///< of an edge's column, beside that of its fit [px]
   /// Throws std::invalid_argument, naming the field, if a value is out of range.
   void Validate() const;

@@ -14,6 +14,7 @@ namespace scan_image_slam {
 
 struct PoseFilterOptions {
   EdgeMapOptions edges;
+  double max_new_slant = 17.0;    ///< of an edge to begin with: wall per angle of the view [m/rad]
   double edge_correlation = 4.0;  ///< see RefinementOptions [-]
   double edge_bias = 0.5;         ///< part of an edge's deviation that lasts while it is seen [-]
   double scale_stddev = 0.03;     ///< of the encoders' distance: wheels worn or soft [-]
@@ -61,7 +62,8 @@ class PoseFilter {
   /// prediction is wrong by more than it says.
   bool Contradicts(const std::vector<ModelEdge>& edges) const;
 
-  /// Takes what an image tells, and starts edges not seen before. Returns how many were known.
+  /// Takes what an image tells, and begins edges that were near enough in an image before. Returns
+  /// how many were known.
   int AddEdges(const std::vector<ModelEdge>& edges);
 
   const Pose2& map_from_base() const { return map_from_base_; }
@@ -86,6 +88,12 @@ class PoseFilter {
     double bearing_stddev = 0.0;  // smoothed [rad]
     double shift_variance = 0.0;  // of the place where it seems to be, along its surface [m^2]
   };
+  /// An edge that was seen near enough for the first time.
+  struct Newcomer {
+    Eigen::Vector2d place{0, 0};
+    int sign = 0;
+    double seen = 0.0;  // way
+  };
   /// What an edge should be, and how it depends on the state.
   struct Sight {
     double innovation = 0.0;   // [rad]
@@ -101,6 +109,8 @@ class PoseFilter {
   Sight SightOf(const ModelEdge& edge, int track) const;
   double VarianceOf(const Sight& sight) const;
   void Update(double innovation, double variance, const Eigen::VectorXd& jacobian);
+  void Welcome(const std::vector<const ModelEdge*>& unknown);
+  bool WasMet(const ModelEdge& edge);
   void Begin(const ModelEdge& edge);
   void LetShift(const ModelEdge& edge, int id);
   double ShiftVariance(double bearing_stddev, const Eigen::Vector2d& along) const;
@@ -111,6 +121,7 @@ class PoseFilter {
   Eigen::VectorXd state_;
   Eigen::MatrixXd covariance_;
   std::vector<Track> tracks_;
+  std::vector<Newcomer> newcomers_;
   double way_ = 0.0;
 };
 
