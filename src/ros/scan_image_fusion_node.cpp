@@ -209,6 +209,7 @@ void ScanImageFusionNode::OnCameraInfo(const sensor_msgs::CameraInfoConstPtr& me
 void ScanImageFusionNode::LoseCamera() {
   fusion_.RemoveCamera();
   camera_info_text_.clear();
+  ForgetCalibration();
 }
 
 void ScanImageFusionNode::OnImage(const sensor_msgs::ImageConstPtr& message) {

@@ -283,15 +283,16 @@ void Mapper::Load(const MapState& state, MapUse use) {
   if (use == MapUse::kLocalize && state.graph.keyframes.empty()) {
     throw std::invalid_argument("the state holds no map to localise in");
   }
-  *this = Mapper(options_);
-  keyframe_poses_ = state.graph.poses;
-  loaded_chain_ = state.chain;
-  drawn_.Load(state.drawn);
-  drawn_.Reattach(state.graph.let_go);
-  drawn_.BeginRedraw();  // what the graph knew better when it was saved
-  if (!state.graph.keyframes.empty()) way_ = state.graph.keyframes.rbegin()->second->way;
-  localize_ = use == MapUse::kLocalize;
-  lost_ = !keyframe_poses_.empty();
+  Mapper loaded(options_);  // the map in use stays if this one is too large
+  loaded.keyframe_poses_ = state.graph.poses;
+  loaded.loaded_chain_ = state.chain;
+  loaded.drawn_.Load(state.drawn);
+  loaded.drawn_.Reattach(state.graph.let_go);
+  loaded.drawn_.BeginRedraw();  // what the graph knew better when it was saved
+  if (!state.graph.keyframes.empty()) loaded.way_ = state.graph.keyframes.rbegin()->second->way;
+  loaded.localize_ = use == MapUse::kLocalize;
+  loaded.lost_ = !loaded.keyframe_poses_.empty();
+  *this = std::move(loaded);
 }
 
 void Mapper::Reset() {

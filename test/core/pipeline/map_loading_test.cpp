@@ -61,6 +61,16 @@ TEST_F(MapLoading, TheMapIsDrawnAsItWas) {
   EXPECT_EQ(EncodeState(after.pipeline.Save()), EncodeState(saved_));
 }
 
+TEST_F(MapLoading, AMapThatIsTooLargeLeavesTheOneInUse) {
+  SlamOptions options;
+  options.mapper.grid.max_cells = 1000;
+  PipelineRun after(options);
+  const std::string before = EncodeState(after.pipeline.Save());
+  EXPECT_THROW(after.pipeline.Load(saved_, MapUse::kLocalize), std::invalid_argument);
+  EXPECT_EQ(EncodeState(after.pipeline.Save()), before);
+  EXPECT_FALSE(after.pipeline.mapper().lost());
+}
+
 TEST_F(MapLoading, GoesOnOnceTheRobotIsFound) {
   PipelineRun after;
   after.pipeline.Load(saved_, MapUse::kContinue);
