@@ -9,7 +9,7 @@ import rostest
 from camera_support import CameraTest
 from diagnostic_msgs.msg import DiagnosticArray
 from live_support import (FOCAL, HEIGHT, START, WIDTH, Recorder, cast, make_camera_info, make_image,
-                          make_odometry, make_scan, optical_transform, wait_for)
+                          make_odometry, make_scan, optical_transform, transform, wait_for)
 
 PERIOD = 0.1  # of the scans [s]
 LEAD = 0.03  # of an image before its scan [s]
@@ -47,7 +47,8 @@ def picture_at(seconds):
 
 
 class CalibrationWatchTest(CameraTest):
-    CAMERA = optical_transform('base_link', 'camera', 0, 0, 0.3)
+    MOUNTS = (transform('base_link', 'laser', 0, 0, 0.3),
+              optical_transform('base_link', 'camera', 0, 0, 0.3))
 
     @classmethod
     def setUpClass(cls):
@@ -55,7 +56,7 @@ class CalibrationWatchTest(CameraTest):
         cls.diagnostics = Recorder('/diagnostics', DiagnosticArray)
 
     def drive(self, seconds, late=0.0, focal=FOCAL):
-        """Images are taken `late` seconds after what their stamps say. Gives the last stamp."""
+        """Images are taken `late` seconds after what their stamps say."""
         for _ in range(round(seconds / PERIOD)):
             type(self).time += PERIOD
             t = self.time
@@ -67,17 +68,16 @@ class CalibrationWatchTest(CameraTest):
             self.scan.publish(scan_at(t))
             self.models.at(t)
 
-    def told(self, begin):
-        """What the newest diagnostics say, once those before `begin` are past."""
+    def now_told(self):
+        """What the diagnostics say from now on."""
+        begin = len(self.diagnostics.messages)
+
         def newest():
             found = [m.status[0] for m in self.diagnostics.messages[begin:]
                      if m.status[0].name.startswith('scan_image_fusion')]
             return found[-1] if len(found) > 1 else None
         status = wait_for(newest, 'diagnostics of the fusion')
         return status, {value.key: value.value for value in status.values}
-
-    def now_told(self):
-        return self.told(len(self.diagnostics.messages))
 
     # The names put the tests into order: each drives on from the one before.
     def test_0_a_camera_that_fits(self):

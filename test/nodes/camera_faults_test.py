@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """A camera that is not as it should be: the node says so, goes on without it, and with it again."""
 
-
 import numpy
 import rospy
 import rostest

@@ -13,13 +13,13 @@ from sensor_msgs.msg import CameraInfo, Image, LaserScan
 
 class CameraTest(unittest.TestCase):
     """Publishers of the node's inputs, and recorders of what it says."""
-    LASER = transform('base_link', 'laser', 0, 0, 0.3)
-    CAMERA = optical_transform('base_link', 'camera', 0, 0, 0.5)
+    MOUNTS = (transform('base_link', 'laser', 0, 0, 0.3),
+              optical_transform('base_link', 'camera', 0, 0, 0.5))
 
     @classmethod
     def setUpClass(cls):
         rospy.init_node('camera_test')
-        cls.static = static_transforms(cls.LASER, cls.CAMERA)
+        cls.static = static_transforms(*cls.MOUNTS)
         cls.scan = publisher('scan', LaserScan)
         cls.odom = publisher('odom', Odometry)
         cls.info = publisher('camera_info', CameraInfo)

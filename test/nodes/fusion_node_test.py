@@ -2,38 +2,28 @@
 """The node scan_image_fusion alone: hand-made scans, odometry and images in, models out."""
 
 import math
-import unittest
 
 import numpy
 import rospy
 import rostest
-from live_support import (FOCAL, HEIGHT, START, WALLS, WIDTH, Console, Recorder, make_camera_info,
-                          make_image, make_odometry, make_scan, optical_transform, publisher,
-                          room_scan, static_transforms, transform, wait_subscribed)
-from nav_msgs.msg import Odometry
-from scan_image_slam.msg import IcpModel, VerticalEdge
-from sensor_msgs.msg import CameraInfo, Image, LaserScan
+from camera_support import CameraTest
+from live_support import (FOCAL, HEIGHT, WALLS, WIDTH, Recorder, make_camera_info, make_image,
+                          make_odometry, make_scan, optical_transform, room_scan, transform)
+from scan_image_slam.msg import VerticalEdge
+from sensor_msgs.msg import Image
 from visualization_msgs.msg import MarkerArray
 
 LASER = (0.2, 0.1, math.radians(30))  # on the base: x, y, heading
 
 
-class FusionNodeTest(unittest.TestCase):
+class FusionNodeTest(CameraTest):
+    MOUNTS = (transform('base_link', 'laser', LASER[0], LASER[1], 0.3, LASER[2]),
+              transform('base_link', 'straight_laser', 0, 0, 0.3),
+              optical_transform('base_link', 'camera', 0, 0, 0.5))
+
     @classmethod
     def setUpClass(cls):
-        rospy.init_node('fusion_node_test')
-        cls.static = static_transforms(
-            transform('base_link', 'laser', LASER[0], LASER[1], 0.3, LASER[2]),
-            transform('base_link', 'straight_laser', 0, 0, 0.3),
-            optical_transform('base_link', 'camera', 0, 0, 0.5))
-        cls.scan = publisher('scan', LaserScan)
-        cls.odom = publisher('odom', Odometry)
-        cls.info = publisher('camera_info', CameraInfo)
-        cls.image = publisher('image_raw', Image)
-        cls.console = Console()
-        cls.models = Recorder('icp_model', IcpModel).wait_connected()
-        wait_subscribed(cls.scan, cls.odom, cls.info, cls.image)
-        cls.time = START
+        super().setUpClass()
         # The transforms come on a way of their own.
         cls.fuse_until_there()
 

@@ -13,7 +13,7 @@ using Pair = CalibrationWatch::Pair;
 using Pairs = std::vector<Pair>;
 
 constexpr std::size_t kMinPairs = 200;   // of an answer
-constexpr std::size_t kMaxPairs = 2000;  // kept: half a minute among many things
+constexpr std::size_t kMaxPairs = 2000;  // kept
 constexpr double kMinDistance = 0.1;     // between two views [m]
 constexpr double kMinAngle = 0.03;       // or turned [rad]
 constexpr double kSpan = 0.05;           // of a velocity, before and after the picture [s]

@@ -24,8 +24,9 @@ class CalibrationWatch {
   /// The model that `fusion` has just made. What stands still says nothing new.
   void Add(const ScanImageFusion& fusion, const FusedModel& model);
 
-  /// By the latest half minute or more of driving. Nothing if too little was seen, or if edges do
-  /// not lie on discontinuities with any yaw up to 4 degrees and any time up to 0.1 s.
+  /// By the latest 2000 pairs of an edge and a discontinuity: some seconds of driving where much is
+  /// in view, minutes where little is. Nothing if too little was seen, or if edges do not lie on
+  /// discontinuities with any yaw up to 4 degrees and any time up to 0.1 s.
   std::optional<CameraMisfit> Misfit() const;
 
   /// An edge near a discontinuity of the same view, whether they belong together or not.
