@@ -3,9 +3,11 @@
 
 #include "scan_image_slam/core/evaluation/trajectory.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
+#include "scan_image_slam/ros/slam_messages.h"
 #include <scan_image_slam/ScanMatch.h>
 
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -16,25 +18,23 @@
 
 namespace {
 
-using scan_image_slam::Pose2;
+using scan_image_slam::FromMessage;
 using scan_image_slam::Seconds;
-using scan_image_slam::Stamp;
+using scan_image_slam::StampedPose;
 using scan_image_slam::ToPose2;
 using scan_image_slam::ToStamp;
 using scan_image_slam::Trajectory;
 
-Pose2 ToPose2(const geometry_msgs::Pose2D& pose) { return {pose.x, pose.y, pose.theta}; }
+StampedPose ToStampedPose(const std_msgs::Header& header, const geometry_msgs::Pose& pose) {
+  return {ToStamp(header.stamp), ToPose2(pose)};
+}
 
 /// Adds a pose if its time advances, as the files demand. One that is none is told and left out.
-template <typename Pose>
-void Add(const std_msgs::Header& header, const Pose& pose, const std::string& topic,
+void Add(const std::function<StampedPose()>& read, const std::string& topic,
          Trajectory* trajectory) {
   try {
-    const Stamp stamp = ToStamp(header.stamp);
-    const Pose2 pose2 = ToPose2(pose);
-    if (trajectory->empty() || stamp > trajectory->back().stamp) {
-      trajectory->push_back({stamp, pose2});
-    }
+    const StampedPose pose = read();
+    if (trajectory->empty() || pose.stamp > trajectory->back().stamp) trajectory->push_back(pose);
   } catch (const std::invalid_argument& error) {
     ROS_WARN_STREAM_THROTTLE(5.0, topic << ": " << error.what());
   }
@@ -52,16 +52,20 @@ int main(int argc, char** argv) {
   constexpr std::uint32_t kQueue = 1000;
   const ros::Subscriber poses = node.subscribe<geometry_msgs::PoseWithCovarianceStamped>(
       "pose", kQueue, [&](const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
-        Add(message->header, message->pose.pose, "pose", &estimate);
+        Add([&] { return ToStampedPose(message->header, message->pose.pose); }, "pose", &estimate);
       });
   const ros::Subscriber matches = node.subscribe<scan_image_slam::ScanMatch>(
       "scan_match", kQueue, [&](const scan_image_slam::ScanMatchConstPtr& message) {
         if (!message->has_odometry) return;
-        Add(message->header, message->odom_pose, "scan_match", &encoder);
+        const auto read = [&] {
+          const scan_image_slam::MatchedMotion match = FromMessage(*message);
+          return StampedPose{match.stamp, *match.odom_from_base};
+        };
+        Add(read, "scan_match", &encoder);
       });
   const ros::Subscriber truths = node.subscribe<geometry_msgs::PoseStamped>(
       "ground_truth", kQueue, [&](const geometry_msgs::PoseStampedConstPtr& message) {
-        Add(message->header, message->pose, "ground_truth", &truth);
+        Add([&] { return ToStampedPose(message->header, message->pose); }, "ground_truth", &truth);
       });
   ros::spin();
   try {

@@ -7,10 +7,22 @@
 
 #include <chrono>
 #include <filesystem>
+#include <utility>
 
 #include <ros/console.h>
 
 namespace scan_image_slam {
+
+namespace {
+
+/// Draws the map, which takes a while.
+Mapper Loaded(const MapState& state, const MapperOptions& options, const MapperNodeOptions& node) {
+  Mapper mapper(options);
+  mapper.Load(state, node.localization ? MapUse::kLocalize : MapUse::kContinue);
+  return mapper;
+}
+
+}  // namespace
 
 /// A map that was begun elsewhere, and where to keep it.
 void MapperNode::StartWithStateFile(ros::NodeHandle node) {
@@ -25,7 +37,9 @@ void MapperNode::StartWithStateFile(ros::NodeHandle node) {
   }
   options.state_file = PathFrom(options.map_folder, options.state_file);
   if (options.localization || std::filesystem::exists(options.state_file)) {
-    Load(ReadState(options.state_file), options.state_file);
+    const MapState state = ReadState(options.state_file);
+    Mapper loaded = Loaded(state, options_.mapper, options);
+    TakeIn(state, &loaded, options.state_file);
     changed_ = false;
   } else {
     ROS_WARN_STREAM("there is no " << options.state_file << ": the map begins empty");
@@ -35,8 +49,10 @@ void MapperNode::StartWithStateFile(ros::NodeHandle node) {
                                          [this](const ros::WallTimerEvent&) { Autosave(); });
 }
 
-void MapperNode::Load(const MapState& state, const std::string& path) {
-  mapper_.Load(state, options_.node.localization ? MapUse::kLocalize : MapUse::kContinue);
+/// `loaded` takes what was there before, to be thrown away where nothing waits for that.
+void MapperNode::TakeIn(const MapState& state, Mapper* loaded, const std::string& path) {
+  loaded->SetOptions(options_.mapper);
+  std::swap(mapper_, *loaded);
   back_end_.Load(state.graph);
   StartOver();
   changed_ = true;
@@ -85,12 +101,13 @@ void MapperNode::AdvertiseFileServices() {
 
 bool MapperNode::SaveMap(SaveMapRequest& request, SaveMapResponse& response) {
   try {
-    MapImage map;
+    OccupancyGrid grid{OccupancyGridOptions()};
     std::string stem;
     files_.InNodeThread([&] {
-      map = ToMapImage(mapper_.grid());
+      grid = mapper_.grid();
       stem = PathInside(options_.node.map_folder, request.name);
     });
+    const MapImage map = ToMapImage(grid);
     if (map.width == 0) throw std::runtime_error("there is no map yet");
     response.path = WriteMap(map, stem);
     response.success = true;
@@ -120,10 +137,13 @@ bool MapperNode::SaveState(StateFileRequest& request, StateFileResponse& respons
 
 bool MapperNode::LoadState(StateFileRequest& request, StateFileResponse& response) {
   try {
-    files_.InNodeThread([&] { response.path = PathFrom(options_.node.map_folder, request.path); });
+    Options options;
+    files_.InNodeThread([&] { options = options_; });
+    response.path = PathFrom(options.node.map_folder, request.path);
     MapState state = ReadState(response.path);
     state.chain = KnownChain();  // who loads another map has a reason to look for the robot
-    files_.InNodeThread([&] { Load(state, response.path); });
+    Mapper loaded = Loaded(state, options.mapper, options.node);
+    files_.InNodeThread([&] { TakeIn(state, &loaded, response.path); });
     response.success = true;
   } catch (const std::exception& error) {
     response.message = error.what();

@@ -26,6 +26,8 @@ constexpr std::uint32_t kModelQueue = 20;
 constexpr std::size_t kMaxWaitingScans = 20;
 constexpr double kEdgeHeight = 1.0;    // of a drawn edge [m]
 constexpr double kMisfitPeriod = 5.0;  // between two looks at the calibration [s]
+constexpr double kCameraGone = 20.0;   // it may be another, or elsewhere, when it is back [s]
+constexpr char kMisfit[] = "camera calibration";
 
 Stamp SteadyNow() { return static_cast<Stamp>(ros::SteadyTime::now().toNSec()); }
 
@@ -118,8 +120,8 @@ void ScanImageFusionNode::Take(const LiveParameters::Values& values) {
   options.Parameters().Set(values);
   fusion_.SetOptions(options.fusion);
   gate_.set_max_wait(options.node.odometry.max_wait);
+  if (options.fusion.camera_time_offset != options_.fusion.camera_time_offset) ForgetCalibration();
   options_ = options;
-  ForgetCalibration();
 }
 
 void ScanImageFusionNode::SubscribeCamera(ros::NodeHandle node, const std::string& name) {
@@ -238,7 +240,12 @@ void ScanImageFusionNode::ReleaseScans() {
 
 void ScanImageFusionNode::Publish(const FusedModel& model) {
   PublishShared(model_publisher_, ToMessage(model, options_.node.odometry.base_frame));
-  if (!model.has_image) return;
+  if (!model.has_image) {
+    if (misfit_stamp_ != 0 && Seconds(model.stamp - misfit_stamp_) > kCameraGone) {
+      ForgetCalibration();
+    }
+    return;
+  }
   if (picture_publisher_.getNumSubscribers() > 0) PublishPicture(model);
   if (edges_publisher_.getNumSubscribers() > 0) PublishEdges(model);
   WatchCalibration(model);
@@ -249,7 +256,7 @@ void ScanImageFusionNode::WatchCalibration(const FusedModel& model) {
   if (Seconds(model.stamp - misfit_stamp_) < kMisfitPeriod) return;
   misfit_stamp_ = model.stamp;
   misfit_ = calibration_watch_.Misfit();
-  watch_.SetProblem("camera calibration", misfit_ ? Describe(*misfit_) : "");
+  if (misfit_) watch_.SetProblem(kMisfit, Describe(*misfit_));
 }
 
 /// What was seen belongs to another calibration, or to another time.
@@ -257,7 +264,7 @@ void ScanImageFusionNode::ForgetCalibration() {
   calibration_watch_ = CalibrationWatch();
   misfit_.reset();
   misfit_stamp_ = 0;
-  watch_.SetProblem("camera calibration", "");
+  watch_.ForgetProblem(kMisfit);
 }
 
 void ScanImageFusionNode::PublishPicture(const FusedModel& model) {

@@ -12,6 +12,8 @@
 namespace scan_image_slam {
 namespace {
 
+constexpr char kEnds[] = "the node is being shut down";
+
 /// Some work in the queue of a node's callbacks.
 class QueuedWork : public ros::CallbackInterface {
  public:
@@ -45,9 +47,13 @@ void SideThread::InNodeThread(const std::function<void()>& work) {
   while (done.wait_for(kPatience) != std::future_status::ready) {
     if (!ends_) continue;
     queue->removeByID(id);  // so that it never runs when what it uses is gone
-    throw std::runtime_error("the node is being shut down");
+    throw std::runtime_error(kEnds);
   }
-  done.get();
+  try {
+    done.get();
+  } catch (const std::future_error&) {  // the queue was thrown away, and the work with it
+    throw std::runtime_error(kEnds);
+  }
 }
 
 }  // namespace scan_image_slam

@@ -8,6 +8,7 @@ import numpy
 import rostest
 from camera_support import CameraTest
 from diagnostic_msgs.msg import DiagnosticArray
+from dynamic_reconfigure.client import Client
 from live_support import (FOCAL, HEIGHT, START, WIDTH, Recorder, cast, make_camera_info, make_image,
                           make_odometry, make_scan, optical_transform, transform, wait_for)
 
@@ -79,6 +80,12 @@ class CalibrationWatchTest(CameraTest):
         status = wait_for(newest, 'diagnostics of the fusion')
         return status, {value.key: value.value for value in status.values}
 
+    def assert_nothing_is_known(self):
+        status, values = self.now_told()
+        self.assertEqual(values[OFFSET], 'not known')
+        self.assertNotIn(PROBLEM, status.message)
+        self.assertFalse([m for m in self.console.messages if PROBLEM + ': all right' in m.msg])
+
     # The names put the tests into order: each drives on from the one before.
     def test_0_a_camera_that_fits(self):
         self.assertEqual(self.now_told()[1][OFFSET], 'not known')
@@ -98,11 +105,31 @@ class CalibrationWatchTest(CameraTest):
         self.assertGreaterEqual(status.level, 1)
         self.console.said(PROBLEM, 'ms later', 'calibrate_camera_laser')
 
-    def test_2_another_calibration_is_looked_at_anew(self):
-        self.drive(1.0, late=0.05, focal=FOCAL + 0.5)
+    def test_2_other_parameters_leave_it_as_it_is(self):
+        Client('scan_image_fusion', timeout=60).update_configuration({'odom_max_wait': 0.02})
         status, values = self.now_told()
-        self.assertEqual(values[OFFSET], 'not known')
-        self.assertNotIn(PROBLEM, status.message)
+        self.assertLessEqual(abs(float(values[OFFSET]) - 50.0), 3.0)
+        self.assertIn(PROBLEM, status.message)
+
+    def test_3_another_calibration_is_looked_at_anew(self):
+        self.drive(1.0, late=0.05, focal=FOCAL + 0.5)
+        self.assert_nothing_is_known()
+
+    def test_4_another_time_offset_too(self):
+        self.drive(30.0, late=0.05)
+        self.assertIn(PROBLEM, self.now_told()[0].message)
+        Client('scan_image_fusion', timeout=60).update_configuration({'camera_time_offset': 0.001})
+        self.drive(1.0, late=0.05)
+        self.assert_nothing_is_known()
+
+    def test_5_a_camera_that_is_away_may_come_back_elsewhere(self):
+        self.drive(30.0, late=0.05)
+        self.assertIn(PROBLEM, self.now_told()[0].message)
+        for step in range(25):
+            stamp = self.time + 1.0 + step
+            self.scan.publish(scan_at(stamp))
+            self.models.at(stamp)
+        self.assert_nothing_is_known()
 
 
 if __name__ == '__main__':

@@ -30,6 +30,8 @@ class InputWatch {
 
   /// A condition that keeps the node from its work; an empty text means that it is over.
   void SetProblem(const std::string& key, const std::string& text);
+  /// A condition of which nothing is known any more: it is told no longer.
+  void ForgetProblem(const std::string& key) { problems_.erase(key); }
 
   /// A message that could not be used: counted, and each reason told at most every five seconds.
   void Refuse(const std::string& topic, const std::string& reason);

@@ -62,7 +62,7 @@ class MapperNode {
   bool LoadState(StateFileRequest& request, StateFileResponse& response);
   void AdvertiseFileServices();
   void StartWithStateFile(ros::NodeHandle node);
-  void Load(const MapState& state, const std::string& path);
+  void TakeIn(const MapState& state, Mapper* loaded, const std::string& path);
   void Autosave();
   void FinishAutosave();
   void PublishPose(const MapPose& pose);

@@ -13,7 +13,8 @@ using Pair = CalibrationWatch::Pair;
 using Pairs = std::vector<Pair>;
 
 constexpr std::size_t kMinPairs = 200;   // of an answer
-constexpr std::size_t kMaxPairs = 2000;  // kept
+constexpr std::size_t kMaxPairs = 2000;  // kept, if they are of so many views
+constexpr int kMinViews = 100;           // of an answer: one view is much like the next
 constexpr double kMinDistance = 0.1;     // between two views [m]
 constexpr double kMinAngle = 0.03;       // or turned [rad]
 constexpr double kSpan = 0.05;           // of a velocity, before and after the picture [s]
@@ -94,6 +95,7 @@ void CalibrationWatch::Add(const ScanImageFusion& fusion, const FusedModel& mode
   const std::optional<Pose2> after = odometry.ContinuousPose(taken + FromSeconds(kSpan));
   if (!now || !before || !after || !HasMoved(*now)) return;
   last_ = *now;
+  ++view_;
   JumpSight sight;
   sight.velocity = VelocityOf(before->Inverse() * *after, 2.0 * kSpan);
   for (const RangeJump& jump : FindRangeJumps(model, RangeJumpOptions())) {
@@ -106,7 +108,12 @@ void CalibrationWatch::Add(const ScanImageFusion& fusion, const FusedModel& mode
     sight.bearing_stddev = jump.stddev;
     AddPairs(sight, evidence, *fusion.bearing_image());
   }
-  while (pairs_.size() > kMaxPairs) pairs_.pop_front();
+  while (pairs_.size() > kMaxPairs && Views() > kMinViews) pairs_.pop_front();
+}
+
+/// From the first to the last pair.
+int CalibrationWatch::Views() const {
+  return pairs_.empty() ? 0 : pairs_.back().view - pairs_.front().view + 1;
 }
 
 bool CalibrationWatch::HasMoved(const Pose2& odom_from_base) const {
@@ -130,6 +137,7 @@ void CalibrationWatch::AddPairs(const JumpSight& sight, const FusionEvidence& ev
     const double moved = BearingResidual(sight, viewed, camera, later.data());
     pair.by_time = (moved - pair.residual) / kMoment;
     pair.stddev = std::hypot(sight.bearing_stddev, kPixelStddev * image.step());
+    pair.view = view_;
     pairs_.push_back(pair);
   }
 }
@@ -139,7 +147,7 @@ std::optional<CameraMisfit> CalibrationWatch::Misfit() const {
   constexpr double kYawTolerance = 0.0035;  // [rad]
   constexpr double kTimeTolerance = 0.01;   // [s]
   constexpr double kCertain = 3.0;          // standard deviations
-  if (pairs_.size() < kMinPairs) return std::nullopt;
+  if (pairs_.size() < kMinPairs || Views() < kMinViews) return std::nullopt;
   const auto middle = pairs_.begin() + static_cast<long>(pairs_.size() / 2);
   const Fit older = FitTo(Pairs(pairs_.begin(), middle));
   const Fit newer = FitTo(Pairs(middle, pairs_.end()));

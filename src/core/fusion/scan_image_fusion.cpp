@@ -184,9 +184,11 @@ std::optional<ModelEdge> ScanImageFusion::ToModelEdge(const ImageEdge& image_edg
                                                       const std::vector<Eigen::Vector2d>& points,
                                                       Stamp image, int beam) const {
   constexpr double kMinCosine = 0.02;  // more grazing rays say nothing of the range
-  // As measured on doors and posters: details that a column can't show shift an edge.
-  constexpr double kShiftByFootprint = 15.0;  // [px/m]
-  constexpr double kMaxShift = 0.5;           // [px]
+  // As measured on doors and posters: what makes a fit uncertain shifts the edge in one image like
+  // in the next, and so do details that a column can't show.
+  constexpr double kShiftByFit = 4.0;         // standard deviations of the fit [-]
+  constexpr double kShiftByFootprint = 10.0;  // [px/m]
+  constexpr double kMaxShift = 0.3;           // [px]
   const LocalSurface surface = SurfaceAround(model, points, beam);
   if (!surface.valid) return std::nullopt;
   const Eigen::Vector2d camera = bearing_image_->centre().head<2>();
@@ -208,7 +210,8 @@ std::optional<ModelEdge> ScanImageFusion::ToModelEdge(const ImageEdge& image_edg
   edge.camera = scan_from_image * camera;
   edge.bearing = NormalizeAngle(bearing + scan_from_image.theta);
   edge.bearing_stddev =
-      bearing_image_->step() * std::hypot(image_edge.column_stddev, options_.edge_bearing_stddev,
+      bearing_image_->step() * std::hypot(kShiftByFit * image_edge.column_stddev,
+                                          options_.edge_bearing_stddev,
                                           std::min(kMaxShift, kShiftByFootprint * footprint));
   edge.time_offset = Seconds(image - model.stamp);
   edge.sign = image_edge.sign;

@@ -17,6 +17,7 @@ constexpr std::size_t kConstraintBytes =
     2 * kFloatBytes + kPoseBytes + kMatrixBytes + kFlagBytes + kDoubleBytes;
 constexpr std::size_t kSubmapBytes = 3 * kFloatBytes + kDoubleBytes;
 
+/// Without `range_by_bearing`, which is for the matching of the next scans only.
 void Put(const ModelEdge& edge, ByteWriter* out) {
   PutMatrix(edge.camera, out);
   out->Write(edge.bearing);

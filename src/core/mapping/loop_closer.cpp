@@ -1,5 +1,7 @@
 #include "scan_image_slam/core/mapping/loop_closer.h"
 
+#include "scan_image_slam/core/geometry/covariance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -320,6 +322,8 @@ void LoopCloser::LetKnownGo() {
 void LoopCloser::LetGo(int id) {
   const auto let_go = keyframes_.find(id);
   auto next = std::make_shared<Keyframe>(*std::next(let_go)->second);
+  next->covariance =
+      TransportCovariance(let_go->second->covariance, next->previous_from_base) + next->covariance;
   next->previous_from_base = let_go->second->previous_from_base * next->previous_from_base;
   next->joined = next->joined && let_go->second->joined;
   std::next(let_go)->second = std::move(next);

@@ -90,7 +90,11 @@ Velocity2 OdometryBuffer::NewestVelocity() const {
   if (readings_.size() < 2) return Velocity2{};
   const Reading& newest = readings_.back();
   auto before = readings_.end() - 2;
-  while (before != readings_.begin() && Seconds(newest.stamp - before->stamp) < kSpan) --before;
+  while (before != readings_.begin() && Seconds(newest.stamp - before->stamp) < kSpan) {
+    const auto earlier = before - 1;
+    if (Seconds(before->stamp - earlier->stamp) > options_.max_extrapolation) break;  // a pause
+    before = earlier;
+  }
   // Readings that were delayed on their way come close together.
   const double span = std::max(Seconds(newest.stamp - before->stamp), period_);
   return VelocityOf(before->continuous_from_base.Inverse() * newest.continuous_from_base, span);

@@ -12,6 +12,7 @@ constexpr std::size_t kReadings = 9;
 constexpr double kEven = 1.25;  // the longest interval, by the shortest [-]
 // A stamp so little after a reading may be that of the reading, in parts of an interval.
 constexpr double kSlack = 0.25;
+constexpr double kFar = 1000.0;  // what comes later is no nearer [intervals]
 
 }  // namespace
 
@@ -35,7 +36,7 @@ std::optional<Stamp> ReadingPace::Due(Stamp stamp) const {
   }
   if (Seconds(longest) > kEven * Seconds(shortest)) return std::nullopt;
   const double intervals = Seconds(stamp - readings_.back().stamp) / Seconds(longest);
-  const auto ahead = static_cast<Stamp>(std::max(1.0, std::ceil(intervals - kSlack)));
+  const auto ahead = static_cast<Stamp>(std::clamp(std::ceil(intervals - kSlack), 1.0, kFar));
   return readings_.back().arrival + ahead * shortest_arrival;
 }
 

@@ -13,7 +13,8 @@ namespace {
 constexpr Stamp kStart = 1700000000LL * 1000000000LL;
 
 /// Panels at odd places before the walls of a room: their ends are edges for both sensors.
-PaintedWorld RoomWithPanels(double panel_grey) {
+PaintedWorld RoomWithPanels(double panel_grey, int panels = 8) {
+  const double size = 8.0 / panels;
   PaintedWorld world;
   world.floor_height = -100.0;
   world.AddWall({5.0, -5.0}, {5.0, 5.0});
@@ -21,12 +22,12 @@ PaintedWorld RoomWithPanels(double panel_grey) {
   world.AddWall({-5.0, 5.0}, {-5.0, -5.0});
   world.AddWall({-5.0, -5.0}, {5.0, -5.0});
   double bearing = -1.9;
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < panels; ++i) {
     const double distance = 2.0 + 0.25 * (i % 5);
     const Eigen::Vector2d middle = distance * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
-    const Eigen::Vector2d half = 0.06 * (2 + i % 3) * Across(middle.normalized());
+    const Eigen::Vector2d half = size * 0.06 * (2 + i % 3) * Across(middle.normalized());
     world.AddWall(middle - half, middle + half).grey = panel_grey;
-    bearing += 0.4 + 0.07 * (i % 4);
+    bearing += size * (0.4 + 0.07 * (i % 4));
   }
   return world;
 }
@@ -181,10 +182,29 @@ TEST(CalibrationWatch, IsInDoubtIfTheCameraWasMovedALittle) {
   EXPECT_GT(misfit->yaw_stddev, 0.08 * kDegree);
 }
 
-TEST(CalibrationWatch, SaysNothingAfterAMoment) {
+TEST(CalibrationWatch, SaysNothingIfItSeesLittle) {
   Drive drive;
-  drive.seconds = 2.0;
+  drive.world = drive.seen = RoomWithPanels(60.0, 2);
+  drive.seconds = 15.0;
   EXPECT_FALSE(drive.Misfit());
+}
+
+TEST(CalibrationWatch, SaysNothingOfAFewViewsHoweverMuchTheyShow) {
+  Drive drive;
+  PaintWalls(&drive.seen);
+  drive.seconds = 8.0;
+  EXPECT_FALSE(drive.Misfit());
+  drive.seconds = 16.0;
+  EXPECT_TRUE(drive.Misfit());
+}
+
+TEST(CalibrationWatch, KeepsEnoughViewsHoweverMuchTheyShow) {
+  Drive drive;
+  drive.world = drive.seen = RoomWithPanels(60.0, 40);
+  drive.time_offset = 0.03;
+  const std::optional<CameraMisfit> misfit = drive.Misfit();
+  ASSERT_TRUE(misfit);
+  EXPECT_NEAR(misfit->time_offset, drive.time_offset, 0.005);
 }
 
 TEST(CalibrationWatch, SaysNothingWhileItStands) {

@@ -102,7 +102,7 @@ TEST_F(FourVisits, WhatWasJudgedOnceStaysKnown) {
   EXPECT_EQ(Places().AnchorOf(4), 1);
 }
 
-TEST_F(FourVisits, OneThatWasLetGoKnowsNoPlace) {
+TEST_F(FourVisits, AKeyframeWithoutPointsIsNoAnchor) {
   keyframes_[1] = std::make_shared<Keyframe>();
   EXPECT_FALSE(Places().AnchorOf(4));
 }

@@ -91,6 +91,14 @@ TEST(LoopCloser, AKnownBuildingNeedsNoMoreMemory) {
   GraphPoses anchored;
   for (const auto& [id, anchor] : let_go) anchored[id] = MapFromBase(anchor, closer.poses());
   EXPECT_LT(LargestError(anchored, drive.truth), 0.1);
+  // The motion of a keyframe is the longer and the less certain for those that went before it.
+  const GraphMemory memory = closer.memory();
+  int before = 0;
+  for (const auto& [id, keyframe] : memory.keyframes) {
+    const int motions = std::max(1, id - before);
+    EXPECT_NEAR(keyframe->covariance(2, 2), 1e-5 * motions, 1e-9) << id;
+    before = id;
+  }
   // As soon as nothing hangs on them, they are forgotten.
   closer.ForgetLetGo(static_cast<int>(drive.keyframes.size()) / 2);
   EXPECT_LT(closer.let_go().size(), let_go.size());

@@ -45,26 +45,16 @@ struct Drive {
     pipeline.Finish();
   }
 
-  /// Where the robot was between two true poses.
-  Pose2 TruthAt(Stamp stamp) const {
-    const auto after = truth.lower_bound(stamp);
-    if (after->first == stamp) return after->second;
-    const auto before = std::prev(after);
-    const double share = Seconds(stamp - before->first) / Seconds(after->first - before->first);
-    const Pose2 motion = before->second.Inverse() * after->second;
-    return before->second * Pose2{share * motion.x, share * motion.y, share * motion.theta};
-  }
-
   /// Mean of the squared errors, in standard deviations as the poses tell them.
   double MeanNormalizedError() const {
     const Pose2 map_from_world =
-        poses.front().map_from_base * TruthAt(poses.front().stamp).Inverse();
+        poses.front().map_from_base * truth.at(poses.front().stamp).Inverse();
     double sum = 0.0;
     int count = 0;
     for (const MapPose& pose : poses) {
       if (Seconds(pose.stamp - poses.front().stamp) < kStartUp) continue;
       const Eigen::Vector3d error =
-          (pose.map_from_base.Inverse() * map_from_world * TruthAt(pose.stamp)).coordinates();
+          (pose.map_from_base.Inverse() * map_from_world * truth.at(pose.stamp)).coordinates();
       sum += error.dot(pose.covariance.inverse() * error);
       ++count;
     }

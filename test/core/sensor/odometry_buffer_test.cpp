@@ -141,14 +141,21 @@ TEST(OdometryBuffer, ClearForgetsTheReadingsAndTheirTime) {
   ExpectPoseAt(buffer, -500.0, {70.0, 0.0, 0.0});
 }
 
-TEST(OdometryBuffer, JitteringStampsDoNotMakeTheRobotFlyOff) {
+TEST(OdometryBuffer, TwoReadingsAtOnceAfterAPauseDoNotMakeTheRobotFlyOff) {
   OdometryBuffer buffer(Limits(1.0));
   for (int i = 0; i < 30; ++i) buffer.Add(At(i / 30.0), {0.02 * i, 0.0, 0.0});  // 0.6 m/s
-  buffer.Add(At(29.0 / 30.0 + 0.001), {0.60, 0.0, 0.0});
-  const double newest = 29.0 / 30.0 + 0.001;
-  const std::optional<Pose2> ahead = buffer.ContinuousPose(At(newest + 0.02));
+  buffer.Add(At(3.0), {1.8, 0.0, 0.0});
+  buffer.Add(At(3.001), {1.82, 0.0, 0.0});
+  const std::optional<Pose2> ahead = buffer.ContinuousPose(At(3.021));
   ASSERT_TRUE(ahead);
-  EXPECT_LT(ahead->x, 0.60 + Limits(1.0).max_speed * 0.02);
+  EXPECT_LT(ahead->x, 1.82 + Limits(1.0).max_speed * 0.02);
+}
+
+TEST(OdometryBuffer, TheVelocityIsNotThatOfBeforeAPause) {
+  OdometryBuffer buffer(Limits(1.0));
+  for (int i = 0; i < 10; ++i) buffer.Add(At(0.02 * i), {0.0, 0.0, 0.0});
+  for (int i = 0; i < 4; ++i) buffer.Add(At(3.0 + 0.02 * i), {0.01 * i, 0.0, 0.0});  // 0.5 m/s
+  ExpectPoseAt(buffer, 3.16, {0.08, 0.0, 0.0});
 }
 
 // Encoders that count whole millimetres, at 25 mm/s: a step of one or none each 20 ms.

@@ -52,6 +52,15 @@ TEST(ReadingPace, ForetellsTheEarliestArrival) {
   EXPECT_EQ(pace.Due(kLast + 61 * kMs), kNow + 77 * kMs);
 }
 
+TEST(ReadingPace, AStampOfAnotherCenturyIsFarAhead) {
+  ReadingPace pace;
+  for (int i = 0; i < kEnough; ++i)
+    pace.Watch(i, kNow + 20 * i * kMs);  // stamps a nanosecond apart
+  const std::optional<Stamp> due = pace.Due(4'000'000'000'000'000'000);
+  ASSERT_TRUE(due);
+  EXPECT_GT(*due, kNow + 10000 * kMs);
+}
+
 TEST(ReadingPace, AReadingSeenTwiceIsOne) {
   ReadingPace pace = EvenPace(kEnough);
   pace.Watch(kLast, kNow + 15 * kMs);

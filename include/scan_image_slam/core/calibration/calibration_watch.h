@@ -24,9 +24,10 @@ class CalibrationWatch {
   /// The model that `fusion` has just made. What stands still says nothing new.
   void Add(const ScanImageFusion& fusion, const FusedModel& model);
 
-  /// By the latest 2000 pairs of an edge and a discontinuity: some seconds of driving where much is
-  /// in view, minutes where little is. Nothing if too little was seen, or if edges do not lie on
-  /// discontinuities with any yaw up to 4 degrees and any time up to 0.1 s.
+  /// By the latest 2000 pairs of an edge and a discontinuity, or those of the latest 100 views if
+  /// that is more: some seconds of driving where much is in view, minutes where little is. Nothing
+  /// if too little was seen, or if edges do not lie on discontinuities with any yaw up to 4 degrees
+  /// and any time up to 0.1 s.
   std::optional<CameraMisfit> Misfit() const;
 
   /// An edge near a discontinuity of the same view, whether they belong together or not.
@@ -34,14 +35,18 @@ class CalibrationWatch {
     double residual = 0.0;  ///< how far the edge lies to the left of the discontinuity [rad]
     double by_time = 0.0;   ///< how that grows with the time added to the picture's stamp [rad/s]
     double stddev = 0.0;    ///< [rad]
+    int view = 0;           ///< number in the order of time
   };
 
  private:
   bool HasMoved(const Pose2& odom_from_base) const;
   void AddPairs(const JumpSight& sight, const FusionEvidence& evidence, const BearingImage& image);
 
+  int Views() const;
+
   std::deque<Pair> pairs_;
-  Pose2 last_;  ///< of the base by the encoders, when something was added
+  int view_ = 0;  ///< the last one
+  Pose2 last_;    ///< of the base by the encoders, when something was added
 };
 
 }  // namespace scan_image_slam
