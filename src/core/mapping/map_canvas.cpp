@@ -84,6 +84,12 @@ void MapCanvas::DrawDot(const Eigen::Vector2d& point, const cv::Scalar& colour, 
   cv::circle(picture_, At(point), radius * kSubpixel, colour, -1, cv::LINE_AA, kSubpixelBits);
 }
 
+/// What is written over it can be read.
+void MapCanvas::Fade(const cv::Rect& place) {
+  cv::Mat part = picture_(place & cv::Rect({0, 0}, picture_.size()));
+  part = 0.15 * part + cv::Scalar::all(0.85 * 255);
+}
+
 void MapCanvas::DrawScaleBar() {
   const double wanted = 0.2 * picture_.cols / PixelsPerMetre();
   const double power = std::pow(10.0, std::floor(std::log10(std::max(wanted, 0.1))));
@@ -91,12 +97,19 @@ void MapCanvas::DrawScaleBar() {
       wanted / power >= 5.0 ? 5.0 * power : (wanted / power >= 2.0 ? 2.0 * power : power);
   const int length = static_cast<int>(std::lround(metres * PixelsPerMetre()));
   const cv::Point left(20, picture_.rows - 20);
+  Fade({left - cv::Point(10, 34), left + cv::Point(length + 10, 10)});
   cv::line(picture_, left, left + cv::Point(length, 0), kInk, 4);
-  cv::String text = cv::format(metres < 1.0 ? "%.1f m" : "%.0f m", metres);
+  const cv::String text = cv::format(metres < 1.0 ? "%.1f m" : "%.0f m", metres);
   cv::putText(picture_, text, left + cv::Point(0, -10), kFont, 0.6, kInk, 1, cv::LINE_AA);
 }
 
 void MapCanvas::DrawLegend(const std::vector<LegendEntry>& entries) {
+  if (entries.empty()) return;
+  int width = 0;
+  for (const LegendEntry& entry : entries) {
+    width = std::max(width, cv::getTextSize(entry.name, kFont, 0.6, 1, nullptr).width);
+  }
+  Fade({10, 4, width + 64, 24 * static_cast<int>(entries.size()) + 8});
   int row = 24;
   for (const LegendEntry& entry : entries) {
     cv::line(picture_, {20, row - 5}, {56, row - 5}, entry.colour, 3, cv::LINE_AA);

@@ -8,6 +8,7 @@ namespace {
 const cv::Vec3b kBlack(0, 0, 0);
 const cv::Vec3b kWhite(254, 254, 254);
 const cv::Vec3b kGrey(205, 205, 205);
+const cv::Vec3b kPaper(255, 255, 255);
 const cv::Vec3b kInk(40, 40, 40);
 const cv::Scalar kRed(0, 0, 255);
 const cv::Vec3b kRedPixel(0, 0, 255);
@@ -64,7 +65,7 @@ TEST(MapPicture, GrowsToHoldPathsThatLeaveTheMap) {
   // 1 m more than the path on each side: -26 ... 41 and -16 ... 41, at 10 pixels per cell.
   EXPECT_EQ(picture.cols, 670);
   EXPECT_EQ(picture.rows, 570);
-  EXPECT_EQ(At(picture, 10, 10), kRedPixel);
+  EXPECT_EQ(At(picture, 140, 120), kRedPixel);  // beside the legend
   EXPECT_EQ(At(picture, 660, 560), kRedPixel);
   EXPECT_EQ(At(picture, 465, 205), kBlack);  // the wall at (20.5, 20.5)
   EXPECT_EQ(At(picture, 485, 205), kGrey);
@@ -77,7 +78,7 @@ TEST(MapPicture, CutsPathsThatGoFarAway) {
   const cv::Mat picture = DrawMap(Hall(), {path}, 670);
   EXPECT_EQ(picture.cols, 670);
   EXPECT_EQ(picture.rows, 570);
-  EXPECT_EQ(At(picture, 10, 10), kRedPixel);
+  EXPECT_EQ(At(picture, 140, 120), kRedPixel);  // beside the legend
   EXPECT_EQ(At(picture, 669, 560), kRedPixel);
 }
 
@@ -86,11 +87,20 @@ TEST(MapPicture, HasAScaleBarOfARoundLength) {
   const cv::Mat picture = DrawMap(Hall(), {}, 800);
   EXPECT_EQ(At(picture, 20, 380), kInk);
   EXPECT_EQ(At(picture, 120, 380), kInk);
-  EXPECT_EQ(At(picture, 125, 380), kWhite);
+  EXPECT_EQ(At(picture, 125, 380), kPaper);
   MapImage fine = Hall();
   fine.resolution = 0.05;  // 2 m: a fifth is 0.4 m, so 0.2 m or 80 pixels
   EXPECT_EQ(At(DrawMap(fine, {}, 800), 100, 380), kInk);
-  EXPECT_EQ(At(DrawMap(fine, {}, 800), 105, 380), kWhite);
+  EXPECT_EQ(At(DrawMap(fine, {}, 800), 105, 380), kPaper);
+}
+
+TEST(MapPicture, TheScaleBarCanBeReadOnAWall) {
+  MapImage full = Hall();
+  full.occupancy.assign(800, 100);
+  const cv::Mat picture = DrawMap(full, {}, 800);
+  EXPECT_EQ(At(picture, 20, 380), kInk);
+  EXPECT_GT(At(picture, 125, 380)[0], 200);
+  EXPECT_EQ(At(picture, 140, 380), kBlack);
 }
 
 TEST(MapPicture, HasALegend) {

@@ -37,6 +37,7 @@ class MapCanvas {
  private:
   cv::Point At(const Eigen::Vector2d& point) const;
   int PixelsPerMetre() const;
+  void Fade(const cv::Rect& place);
 
   cv::Mat picture_;
   Eigen::Vector2d corner_{0, 0};  // upper left, in the map's frame [m]
