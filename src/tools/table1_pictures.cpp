@@ -12,9 +12,10 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr double kMargin = 1.6;  // around the walls, for legend and scale [m]
+constexpr double kMargin = 0.5;  // around the walls [m]
 constexpr int kLargestSide = 700;
 
+const cv::Scalar kPaper(255, 255, 255);
 const cv::Scalar kTruthColour(0, 0, 0);
 const cv::Scalar kCoreSlamColour(40, 40, 220);
 
@@ -81,6 +82,11 @@ void WriteFigure6(const std::string& path, const Scenario& scenario, const Table
   panels.push_back(Panel(map, NameOf(core_slam), kCoreSlamColour, core_slam.trajectory));
   cv::Mat picture;
   if (map.width > 2 * map.height) {
+    int width = 0;
+    for (const cv::Mat& panel : panels) width = std::max(width, panel.cols);
+    for (cv::Mat& panel : panels) {
+      cv::copyMakeBorder(panel, panel, 0, 0, 0, width - panel.cols, cv::BORDER_CONSTANT, kPaper);
+    }
     cv::vconcat(panels, picture);
   } else {
     cv::hconcat(panels, picture);

@@ -32,12 +32,10 @@ cv::Mat DrawMapQuality(const MapImage& map, const TruePlan& plan, const Pose2& w
     canvas.DrawLine({to_map * wall.from, to_map * wall.to}, kTruth, 1);
   }
   for (const Eigen::Vector2d& point : quality.missed) canvas.DrawDot(point, kMissed, 2);
-  canvas.DrawScaleBar();
-  canvas.DrawLegend({{"occupied, at a true wall", kRight},
-                     {"occupied, no wall", kFalse},
-                     {"seen, not in the map", kMissed},
-                     {"true wall", kTruth}});
-  return canvas.picture();
+  return canvas.Captioned({{"occupied, at a true wall", kRight},
+                           {"occupied, no wall", kFalse},
+                           {"seen, not in the map", kMissed},
+                           {"true wall", kTruth}});
 }
 
 }  // namespace scan_image_slam

@@ -62,10 +62,6 @@ cv::Point MapCanvas::At(const Eigen::Vector2d& point) const {
           static_cast<int>(std::lround(y * kSubpixel))};
 }
 
-int MapCanvas::PixelsPerMetre() const {
-  return static_cast<int>(std::lround(scale_ / resolution_));
-}
-
 void MapCanvas::FillCell(int column, int row, const cv::Scalar& colour) {
   const int x = (left_ + column) * scale_;
   const int y = picture_.rows - (below_ + row + 1) * scale_;
@@ -84,38 +80,47 @@ void MapCanvas::DrawDot(const Eigen::Vector2d& point, const cv::Scalar& colour, 
   cv::circle(picture_, At(point), radius * kSubpixel, colour, -1, cv::LINE_AA, kSubpixelBits);
 }
 
-/// What is written over it can be read.
-void MapCanvas::Fade(const cv::Rect& place) {
-  cv::Mat part = picture_(place & cv::Rect({0, 0}, picture_.size()));
-  part = 0.15 * part + cv::Scalar::all(0.85 * 255);
+/// The longest round length below a fifth of the picture.
+double MapCanvas::BarLength() const {
+  const double wanted = std::max(0.2 * picture_.cols / scale_ * resolution_, 0.1);
+  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+  if (wanted / power >= 5.0) return 5.0 * power;
+  return wanted / power >= 2.0 ? 2.0 * power : power;
 }
 
-void MapCanvas::DrawScaleBar() {
-  const double wanted = 0.2 * picture_.cols / PixelsPerMetre();
-  const double power = std::pow(10.0, std::floor(std::log10(std::max(wanted, 0.1))));
-  const double metres =
-      wanted / power >= 5.0 ? 5.0 * power : (wanted / power >= 2.0 ? 2.0 * power : power);
-  const int length = static_cast<int>(std::lround(metres * PixelsPerMetre()));
-  const cv::Point left(20, picture_.rows - 20);
-  Fade({left - cv::Point(10, 34), left + cv::Point(length + 10, 10)});
-  cv::line(picture_, left, left + cv::Point(length, 0), kInk, 4);
-  const cv::String text = cv::format(metres < 1.0 ? "%.1f m" : "%.0f m", metres);
-  cv::putText(picture_, text, left + cv::Point(0, -10), kFont, 0.6, kInk, 1, cv::LINE_AA);
-}
-
-void MapCanvas::DrawLegend(const std::vector<LegendEntry>& entries) {
-  if (entries.empty()) return;
-  int width = 0;
-  for (const LegendEntry& entry : entries) {
-    width = std::max(width, cv::getTextSize(entry.name, kFont, 0.6, 1, nullptr).width);
+cv::Mat MapCanvas::Captioned(const std::vector<LegendEntry>& legend) const {
+  constexpr double kSize = 0.6;
+  constexpr int kRow = 24;  // [px], as all here
+  constexpr int kMargin = 20;
+  constexpr int kSample = 36;  // of a line's colour
+  const double metres = BarLength();
+  const int bar = static_cast<int>(std::lround(metres / resolution_ * scale_));
+  const std::string length = cv::format(metres < 1.0 ? "%.1f m" : "%.0f m", metres);
+  const auto width_of = [](const std::string& text) {
+    return cv::getTextSize(text, kFont, kSize, 1, nullptr).width;
+  };
+  const int bar_width = std::max(bar, width_of(length));
+  const int column = kMargin + bar_width + 2 * kMargin;  // where the legend begins
+  int width = kMargin + bar_width + kMargin;
+  for (const LegendEntry& entry : legend) {
+    width = std::max(width, column + kSample + 8 + width_of(entry.name) + kMargin);
   }
-  Fade({10, 4, width + 64, 24 * static_cast<int>(entries.size()) + 8});
-  int row = 24;
-  for (const LegendEntry& entry : entries) {
-    cv::line(picture_, {20, row - 5}, {56, row - 5}, entry.colour, 3, cv::LINE_AA);
-    cv::putText(picture_, entry.name, {64, row}, kFont, 0.6, kInk, 1, cv::LINE_AA);
-    row += 24;
+  const int rows = std::max(2, static_cast<int>(legend.size()));
+  cv::Mat captioned;
+  cv::copyMakeBorder(picture_, captioned, 0, rows * kRow + 12, 0,
+                     std::max(0, width - picture_.cols), cv::BORDER_CONSTANT, cv::Scalar::all(255));
+  const auto write = [&](const std::string& text, const cv::Point& at) {
+    cv::putText(captioned, text, at, kFont, kSize, kInk, 1, cv::LINE_AA);
+  };
+  int row = picture_.rows + kRow;
+  write(length, {kMargin, row});
+  cv::line(captioned, {kMargin, row + 14}, {kMargin + bar, row + 14}, kInk, 4);
+  for (const LegendEntry& entry : legend) {
+    cv::line(captioned, {column, row - 5}, {column + kSample, row - 5}, entry.colour, 3);
+    write(entry.name, {column + kSample + 8, row});
+    row += kRow;
   }
+  return captioned;
 }
 
 }  // namespace scan_image_slam

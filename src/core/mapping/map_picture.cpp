@@ -40,9 +40,7 @@ cv::Mat DrawMap(const MapImage& map, const std::vector<DrawnPath>& paths, int la
     canvas.DrawLine(PointsOf(path), path.colour, 2);
     if (!path.poses.empty()) canvas.DrawDot(path.poses.back().translation(), path.colour, 6);
   }
-  canvas.DrawScaleBar();
-  canvas.DrawLegend(legend);
-  return canvas.picture();
+  return canvas.Captioned(legend);
 }
 
 }  // namespace scan_image_slam

@@ -11,6 +11,7 @@ const cv::Vec3b kRed(0, 0, 230);
 const cv::Vec3b kOrange(0, 140, 255);
 const cv::Vec3b kGreen(60, 190, 60);
 const cv::Vec3b kWhite(254, 254, 254);
+constexpr int kCaption = 108;  // below the map, for four lines [px]
 
 /// 80 x 40 free cells of 1 m from (0, 0) on, a wall at y = 20, and what is wrong with it.
 class MapQualityPicture : public ::testing::Test {
@@ -27,7 +28,7 @@ class MapQualityPicture : public ::testing::Test {
   }
   /// Ten pixels per cell; the pixel at a point [m] of the map.
   static cv::Vec3b At(const cv::Mat& picture, double x, double y) {
-    return picture.at<cv::Vec3b>(picture.rows - 1 - static_cast<int>(10 * y),
+    return picture.at<cv::Vec3b>(picture.rows - kCaption - 1 - static_cast<int>(10 * y),
                                  static_cast<int>(10 * x));
   }
   cv::Mat Draw(const Pose2& world_from_map) const {
@@ -43,7 +44,7 @@ class MapQualityPicture : public ::testing::Test {
 
 TEST_F(MapQualityPicture, ColoursWhatIsRightAndWrong) {
   const cv::Mat picture = Draw({});
-  ASSERT_EQ(picture.size(), cv::Size(800, 400));
+  ASSERT_EQ(picture.size(), cv::Size(800, 400 + kCaption));
   EXPECT_EQ(At(picture, 30.5, 20.5), kBlack);
   EXPECT_EQ(At(picture, 40.5, 10.5), kRed);
   EXPECT_EQ(At(picture, 40.95, 10.95), kRed);
@@ -64,7 +65,7 @@ TEST_F(MapQualityPicture, MovesTheTruthIntoTheMap) {
 
 TEST_F(MapQualityPicture, GrowsToHoldTheTruth) {
   plan_.walls.push_back({{20.0, 20.0}, {20.0, 59.0}});
-  EXPECT_EQ(Draw({}).size(), cv::Size(800, 600));
+  EXPECT_EQ(Draw({}).size(), cv::Size(800, 600 + kCaption));
 }
 
 TEST(EmptyMapQualityPicture, IsEmpty) {

@@ -10,6 +10,7 @@ const cv::Vec3b kWhite(254, 254, 254);
 const cv::Vec3b kGrey(205, 205, 205);
 const cv::Vec3b kPaper(255, 255, 255);
 const cv::Vec3b kInk(40, 40, 40);
+constexpr int kCaption = 60;  // below the map, for up to two lines [px]
 const cv::Scalar kRed(0, 0, 255);
 const cv::Vec3b kRedPixel(0, 0, 255);
 
@@ -33,7 +34,7 @@ TEST(MapPicture, FillsTheSideThatIsAskedFor) {
   const cv::Mat picture = DrawMap(Hall(), {}, 800);
   EXPECT_EQ(picture.type(), CV_8UC3);
   EXPECT_EQ(picture.cols, 800);
-  EXPECT_EQ(picture.rows, 400);
+  EXPECT_EQ(picture.rows, 400 + kCaption);
 }
 
 TEST(MapPicture, ShowsTheMapFromAboveWithYUpwards) {
@@ -64,8 +65,8 @@ TEST(MapPicture, GrowsToHoldPathsThatLeaveTheMap) {
   const cv::Mat picture = DrawMap(Hall(), {path}, 670);
   // 1 m more than the path on each side: -26 ... 41 and -16 ... 41, at 10 pixels per cell.
   EXPECT_EQ(picture.cols, 670);
-  EXPECT_EQ(picture.rows, 570);
-  EXPECT_EQ(At(picture, 140, 120), kRedPixel);  // beside the legend
+  EXPECT_EQ(picture.rows, 570 + kCaption);
+  EXPECT_EQ(At(picture, 140, 120), kRedPixel);
   EXPECT_EQ(At(picture, 660, 560), kRedPixel);
   EXPECT_EQ(At(picture, 465, 205), kBlack);  // the wall at (20.5, 20.5)
   EXPECT_EQ(At(picture, 485, 205), kGrey);
@@ -77,38 +78,50 @@ TEST(MapPicture, CutsPathsThatGoFarAway) {
   DrawnPath path{"way", kRed, {{-25.0, 40.0, 0.0}, {40.0, -15.0, 0.0}, {5000.0, -15.0, 0.0}}};
   const cv::Mat picture = DrawMap(Hall(), {path}, 670);
   EXPECT_EQ(picture.cols, 670);
-  EXPECT_EQ(picture.rows, 570);
-  EXPECT_EQ(At(picture, 140, 120), kRedPixel);  // beside the legend
+  EXPECT_EQ(picture.rows, 570 + kCaption);
+  EXPECT_EQ(At(picture, 140, 120), kRedPixel);
   EXPECT_EQ(At(picture, 669, 560), kRedPixel);
 }
 
 TEST(MapPicture, HasAScaleBarOfARoundLength) {
   // A fifth of 40 m is 8 m, and 5 m is the next round length: 100 pixels from x = 20.
   const cv::Mat picture = DrawMap(Hall(), {}, 800);
-  EXPECT_EQ(At(picture, 20, 380), kInk);
-  EXPECT_EQ(At(picture, 120, 380), kInk);
-  EXPECT_EQ(At(picture, 125, 380), kPaper);
+  EXPECT_EQ(At(picture, 20, 438), kInk);
+  EXPECT_EQ(At(picture, 120, 438), kInk);
+  EXPECT_EQ(At(picture, 125, 438), kPaper);
   MapImage fine = Hall();
   fine.resolution = 0.05;  // 2 m: a fifth is 0.4 m, so 0.2 m or 80 pixels
-  EXPECT_EQ(At(DrawMap(fine, {}, 800), 100, 380), kInk);
-  EXPECT_EQ(At(DrawMap(fine, {}, 800), 105, 380), kPaper);
+  EXPECT_EQ(At(DrawMap(fine, {}, 800), 100, 438), kInk);
+  EXPECT_EQ(At(DrawMap(fine, {}, 800), 105, 438), kPaper);
 }
 
-TEST(MapPicture, TheScaleBarCanBeReadOnAWall) {
+TEST(MapPicture, NothingIsWrittenOverTheMap) {
   MapImage full = Hall();
   full.occupancy.assign(800, 100);
-  const cv::Mat picture = DrawMap(full, {}, 800);
-  EXPECT_EQ(At(picture, 20, 380), kInk);
-  EXPECT_GT(At(picture, 125, 380)[0], 200);
-  EXPECT_EQ(At(picture, 140, 380), kBlack);
+  const DrawnPath path{"way", kRed, {}};
+  const cv::Mat picture = DrawMap(full, {path, path, path}, 800);
+  ASSERT_EQ(picture.rows, 400 + kCaption + 24);
+  EXPECT_EQ(cv::norm(picture.rowRange(0, 400)), 0.0);
+  EXPECT_EQ(At(picture, 5, 400), kPaper);
 }
 
-TEST(MapPicture, HasALegend) {
-  DrawnPath path{"way", kRed, {}};
+TEST(MapPicture, HasALegendBesideTheScaleBar) {
+  const DrawnPath path{"way", kRed, {}};
   const cv::Mat picture = DrawMap(Hall(), {path, path}, 800);
-  EXPECT_EQ(At(picture, 40, 19), kRedPixel);
-  EXPECT_EQ(At(picture, 40, 43), kRedPixel);
-  EXPECT_EQ(At(picture, 40, 67), kWhite);
+  EXPECT_EQ(At(picture, 170, 419), kRedPixel);
+  EXPECT_EQ(At(picture, 170, 443), kRedPixel);
+  EXPECT_EQ(At(picture, 170, 431), kPaper);
+}
+
+TEST(MapPicture, IsAsWideAsItsLegend) {
+  MapImage narrow = Hall();
+  narrow.width = 1;
+  narrow.height = 800;
+  const DrawnPath path{"a name that is longer than this map is wide", kRed, {}};
+  const cv::Mat picture = DrawMap(narrow, {path}, 800);
+  EXPECT_GT(picture.cols, 300);
+  EXPECT_EQ(At(picture, 1, 0), kPaper);
+  EXPECT_EQ(cv::countNonZero(picture.col(picture.cols - 10).reshape(1) != 255), 0);
 }
 
 TEST(MapPicture, ShowsPathsWithoutAMap) {

@@ -30,14 +30,14 @@ class MapCanvas {
   void DrawLine(const std::vector<Eigen::Vector2d>& points, const cv::Scalar& colour,
                 int thickness);                                                      ///< [px]
   void DrawDot(const Eigen::Vector2d& point, const cv::Scalar& colour, int radius);  ///< [px]
-  /// A bar of one, two or five metres (or ten times as many) with its length.
-  void DrawScaleBar();
-  void DrawLegend(const std::vector<LegendEntry>& entries);
+
+  /// The picture above a strip with a bar of one, two or five metres (or ten times as many) and a
+  /// legend. Wider than the picture if the strip is.
+  cv::Mat Captioned(const std::vector<LegendEntry>& legend) const;
 
  private:
   cv::Point At(const Eigen::Vector2d& point) const;
-  int PixelsPerMetre() const;
-  void Fade(const cv::Rect& place);
+  double BarLength() const;  // [m]
 
   cv::Mat picture_;
   Eigen::Vector2d corner_{0, 0};  // upper left, in the map's frame [m]

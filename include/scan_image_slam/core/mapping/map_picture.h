@@ -21,9 +21,10 @@ struct DrawnPath {
 inline const cv::Scalar kEstimateColour(40, 160, 0);
 inline const cv::Scalar kEncoderColour(220, 90, 30);
 
-/// The map as a picture for people: walls black, free white, unknown grey, paths, a scale bar and a
-/// legend. Paths are cut where they leave the map by more than half of its size. `largest_side` in
-/// pixels, but at least one pixel per cell. Empty if there is nothing to draw.
+/// The map as a picture for people: walls black, free white, unknown grey, paths, and below it a
+/// scale bar and a legend. Paths are cut where they leave the map by more than half of its size.
+/// `largest_side` of the map in pixels, but at least one pixel per cell. Empty if there is nothing
+/// to draw.
 cv::Mat DrawMap(const MapImage& map, const std::vector<DrawnPath>& paths, int largest_side = 1600);
 
 }  // namespace scan_image_slam
