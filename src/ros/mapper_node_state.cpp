@@ -28,6 +28,7 @@ Mapper Loaded(const MapState& state, const MapperOptions& options, const MapperN
 void MapperNode::StartWithStateFile(ros::NodeHandle node) {
   MapperNodeOptions& options = options_.node;
   if (options.state_file.empty()) {
+    transform_publisher_.Set(options.odom_frame, Pose2());
     for (const auto& [needs, name] :
          {std::make_pair(options.localization, "localization"),
           std::make_pair(options.autosave_period > 0.0, "autosave_period")}) {
@@ -43,6 +44,7 @@ void MapperNode::StartWithStateFile(ros::NodeHandle node) {
     changed_ = false;
   } else {
     ROS_WARN_STREAM("there is no " << options.state_file << ": the map begins empty");
+    transform_publisher_.Set(options.odom_frame, Pose2());
   }
   if (options.localization || options.autosave_period <= 0.0) return;
   autosave_timer_ = node.createWallTimer(ros::WallDuration(options.autosave_period),

@@ -5,7 +5,7 @@
 namespace scan_image_slam {
 
 TransformPublisher::TransformPublisher(ros::NodeHandle node, const MapperNodeOptions& options)
-    : options_(options), child_(options.odom_frame), spinner_(1, &queue_) {
+    : options_(options), spinner_(1, &queue_) {
   node.setCallbackQueue(&queue_);
   if (!options_.pub_map_odom_transform) return;
   timer_ = node.createWallTimer(ros::WallDuration(options_.transform_publish_period),

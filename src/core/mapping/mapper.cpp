@@ -189,6 +189,8 @@ std::shared_ptr<const Keyframe> Mapper::Keep(const FusedModel& model, const Matc
 std::shared_ptr<const Keyframe> Mapper::AddModel(const FusedModel& model,
                                                  const MatchedMotion& match) {
   if (!growing()) return nullptr;
+  // It may have been under way for longer than its chain has lasted.
+  if (!start_stamp_ || match.start_stamp != *start_stamp_) return nullptr;
   const Pose2 map_from_base = map_from_start_ * match.start_from_base();
   const bool keep = WorthKeeping(match);
   if (WorthDrawing(match, map_from_base)) {

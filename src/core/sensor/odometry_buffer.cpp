@@ -34,7 +34,8 @@ OdometryBuffer::Result OdometryBuffer::Add(Stamp stamp, const Pose2& odom_from_b
     return Result::kAdded;
   }
   const Reading& last = readings_.back();
-  if (stamp <= last.stamp) return Result::kStale;
+  if (stamp <= last.stamp) return AddStale(stamp, odom_from_base);
+  stale_ = 0;
 
   // Positions are only trusted to the encoders' resolution, so a short step may look fast.
   constexpr double kPositionSlack = 0.05;
@@ -55,6 +56,22 @@ OdometryBuffer::Result OdometryBuffer::Add(Stamp stamp, const Pose2& odom_from_b
     readings_.pop_front();
   }
   return reset ? Result::kReset : Result::kAdded;
+}
+
+/// A few that come late are nothing; if time goes on without ever reaching the newest reading, then
+/// that one was stamped in the future, or the clock has been set back.
+OdometryBuffer::Result OdometryBuffer::AddStale(Stamp stamp, const Pose2& odom_from_base) {
+  constexpr int kPatience = 20;  // readings in a row, each later than the one before
+  if (stamp == readings_.back().stamp) return Result::kStale;  // told twice
+  stale_ = stale_ == 0 || stamp > last_stale_ ? stale_ + 1 : 1;
+  last_stale_ = stamp;
+  if (stale_ < kPatience) return Result::kStale;
+  const Pose2 continuous_from_base = readings_.back().continuous_from_base;
+  Clear();
+  readings_.push_back({stamp, continuous_from_base});
+  odom_from_continuous_ = odom_from_base * continuous_from_base.Inverse();
+  last_odom_from_base_ = odom_from_base;
+  return Result::kReset;
 }
 
 std::optional<Pose2> OdometryBuffer::ContinuousPose(Stamp stamp) const {
@@ -103,6 +120,7 @@ Velocity2 OdometryBuffer::NewestVelocity() const {
 void OdometryBuffer::Clear() {
   readings_.clear();
   period_ = 0.0;
+  stale_ = 0;
 }
 
 }  // namespace scan_image_slam

@@ -93,6 +93,15 @@ TEST(MapperChain, ANewOneKeepsTheMap) {
   EXPECT_GT(DrawnCells(mapper), 0);
 }
 
+TEST(MapperChain, AModelOfAnEarlierOneIsLeftOut) {
+  Mapper mapper = Arrived();
+  mapper.AddMatch(MatchAt(300, 300, {}));
+  EXPECT_EQ(mapper.AddModel(WallAhead(2.0), MatchAt(100, 250, {6.0, 1.0, 0.5})), nullptr);
+  EXPECT_EQ(DrawnCells(mapper), 0);
+  EXPECT_NE(mapper.AddModel(WallAhead(2.0), MatchAt(300, 300, {})), nullptr);
+  EXPECT_GT(DrawnCells(mapper), 0);
+}
+
 TEST(MapperChain, WhenTimeGoesBackTheMapBeginsAnew) {
   // To before the chain, and into the middle of it.
   for (const Stamp stamp : {50, 150}) {

@@ -122,6 +122,35 @@ TEST(OdometryReset, AfterClearTheFrameIsThatOfTheReadings) {
   ExpectPoseNear(*buffer.ContinuousPose(At(0.0)), {1.0, 2.0, 0.5});
 }
 
+TEST(OdometryReset, AReadingFromTheFutureIsGotOver) {
+  OdometryBuffer buffer = Northwards();
+  buffer.Add(At(3600.0), {10.0, 5.2, M_PI / 2.0});
+  for (int i = 0; i < 19; ++i) {
+    const double t = 0.2 + 0.1 * i;
+    EXPECT_EQ(buffer.Add(At(t), {10.0, 5.0 + t, M_PI / 2.0}), Result::kStale) << i;
+  }
+  const Pose2 before = *buffer.ContinuousPose(At(2.1));
+  EXPECT_EQ(buffer.Add(At(2.1), {10.0, 7.1, M_PI / 2.0}), Result::kReset);
+  buffer.Add(At(2.2), {10.0, 7.2, M_PI / 2.0});
+  // What was driven in between is not known; from here on it is.
+  const Pose2 after = *buffer.ContinuousPose(At(2.1));
+  EXPECT_LT((after.translation() - before.translation()).norm(), 0.11);
+  ExpectPoseNear(after.Inverse() * *buffer.ContinuousPose(At(2.2)), {0.1, 0.0, 0.0});
+  ExpectPoseNear(*buffer.OdomFromBase(At(2.2)), {10.0, 7.2, M_PI / 2.0});
+}
+
+TEST(OdometryReset, ReadingsThatComeLateOrTwiceAreNone) {
+  OdometryBuffer buffer = Northwards();
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_EQ(buffer.Add(At(0.1), {10.0, 5.1, M_PI / 2.0}), Result::kStale);
+    EXPECT_EQ(buffer.Add(At(0.05), {10.0, 5.05, M_PI / 2.0}), Result::kStale);
+  }
+  for (int i = 2; i < 40; ++i) {  // two that take turns, one of them late
+    EXPECT_EQ(buffer.Add(At(0.1 * i), {10.0, 5.0 + 0.1 * i, M_PI / 2.0}), Result::kAdded);
+    EXPECT_EQ(buffer.Add(At(0.1 * i - 0.05), {10.0, 5.0, M_PI / 2.0}), Result::kStale);
+  }
+}
+
 TEST(OdometryReset, ClearForgetsTheUsualPeriod) {
   OdometryBuffer buffer(Limits(10.0));
   buffer.Add(At(0.0), {});

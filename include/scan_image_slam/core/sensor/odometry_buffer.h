@@ -27,7 +27,8 @@ class OdometryBuffer {
   enum class Result {
     kAdded,
     kStale,  ///< the stamp does not advance: not used
-    kReset,  ///< a jump: motion across it is unknown, the robot is taken to have kept its velocity
+    kReset,  ///< a jump: motion across it is unknown, the robot is taken to have kept its velocity;
+             ///< or, after many stale ones, time has gone back: begun anew where the robot was
   };
   /// `odom_from_base` as the base reports it.
   Result Add(Stamp stamp, const Pose2& odom_from_base);
@@ -50,6 +51,7 @@ class OdometryBuffer {
     Stamp stamp;
     Pose2 continuous_from_base;
   };
+  Result AddStale(Stamp stamp, const Pose2& odom_from_base);
   /// By the last readings, in the frame of the base; zero before the second one.
   Velocity2 NewestVelocity() const;
 
@@ -58,6 +60,8 @@ class OdometryBuffer {
   Pose2 last_odom_from_base_;
   Pose2 odom_from_continuous_;
   double period_ = 0.0;  ///< usual time between two readings [s]
+  int stale_ = 0;        ///< readings in a row, each later than the one before
+  Stamp last_stale_ = 0;
 };
 
 }  // namespace scan_image_slam
