@@ -116,6 +116,8 @@ void AddLocalMapMatcher(LocalMapMatcherOptions* o, ParameterSet* set) {
            "across the wall, of a point that belongs to an element");
   set->Add("local_map/min_normal_cosine", &o->local_map.min_normal_cosine, "-", {-1.0, 1.0},
            "between the normals of a point and of the element it belongs to");
+  set->Add("local_map/still_time", &o->local_map.still_time, "s", kPositive,
+           "that small things must have stood still, unlike people, before they are matched");
   set->Add("local_map/insert_distance", &o->insert_distance, "m", kNotNegative,
            "driven since the last scan that entered the map");
   set->Add("local_map/insert_angle", &o->insert_angle, "rad", kNotNegative,

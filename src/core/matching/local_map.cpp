@@ -43,6 +43,7 @@ void LocalMapOptions::Validate() const {
   require(spacing, "spacing");
   require(reach, "reach");
   require(max_merge_offset, "max_merge_offset");
+  require(still_time, "still_time");
   if (!(std::abs(min_normal_cosine) <= 1.0)) {
     throw std::invalid_argument("min_normal_cosine must be between -1 and 1");
   }
@@ -54,14 +55,16 @@ LocalMap::LocalMap(const LocalMapOptions& options, const RangeNoise& noise)
 }
 
 void LocalMap::Insert(const std::vector<SurfacePoint>& points, const Pose2& map_from_base,
-                      double way) {
+                      double way, double time) {
+  ++insertion_;
   const std::vector<SurfacePoint> placed = WithNormals(points, map_from_base);
-  for (const SurfacePoint& point : placed) Begin(point);
+  for (const SurfacePoint& point : placed) Begin(point, time);
   for (const SurfacePoint& point : placed) {
     const int id = ElementOf(point);
     if (id < 0) continue;
     Merge(id, point);
     elements_[id].last_seen = static_cast<float>(way);
+    Watch(id, time);
   }
 }
 
@@ -69,7 +72,7 @@ void LocalMap::Insert(const std::vector<SurfacePoint>& points, const Pose2& map_
 /// scan begin before points merge, so that each takes them from both sides. If the first one took
 /// those ahead of it alone, it would be off by its normal's error times half the spacing, always to
 /// the same side of the scan, and the heading would drift.
-void LocalMap::Begin(const SurfacePoint& point) {
+void LocalMap::Begin(const SurfacePoint& point, double time) {
   if (ElementOf(point) >= 0) return;
   const SurfaceElement* nearest = Nearest(point.point);
   const double too_near = 0.7 * options_.spacing;
@@ -79,6 +82,8 @@ void LocalMap::Begin(const SurfacePoint& point) {
   SurfaceElement element;
   element.position = point.point.cast<float>();
   element.normal = point.normal.cast<float>();
+  element.since = static_cast<float>(time);
+  element.last_insertion = insertion_;
   field_.Insert(static_cast<int>(elements_.size()), point.point);
   elements_.push_back(element);
 }
@@ -126,6 +131,15 @@ void LocalMap::Merge(int id, const SurfacePoint& point) {
   element.normal = ((1.0 - gain) * normal + gain * point.normal).normalized().cast<float>();
 }
 
+/// Once an element has stood, it stays: what is hidden or out of view for a while is there still.
+void LocalMap::Watch(int id, double time) {
+  constexpr int kBreak = 3;  // scans in a row that don't hit it
+  SurfaceElement& element = elements_[id];
+  if (element.last_insertion < insertion_ - kBreak) element.since = static_cast<float>(time);
+  element.last_insertion = insertion_;
+  if (time - element.since >= options_.still_time) element.stands = true;
+}
+
 double LocalMap::Distance(const Eigen::Vector2d& place, double max_distance) const {
   const SurfaceElement* element = Nearest(place);
   if (element == nullptr) return max_distance;
@@ -150,6 +164,7 @@ void LocalMap::ForgetBefore(double way) {
 void LocalMap::Clear() {
   elements_.clear();
   field_.Clear();
+  insertion_ = 0;
 }
 
 }  // namespace scan_image_slam

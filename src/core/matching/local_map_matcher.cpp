@@ -99,12 +99,14 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
                                     const MotionPrediction& prediction) {
   std::vector<SurfacePoint> points = EstimateSurface(model, options_.surface, options_.noise);
   MatchOutcome outcome;
+  time_ += prediction.dt;
   if (!prediction.from_encoders) {
     outcome.sweep_correction = VelocityOf(prediction.motion, prediction.dt) - model.sweep_velocity;
     points = CorrectSweep(std::move(points), outcome.sweep_correction);
   }
   const Pose2 map_from_predicted = map_from_last * prediction.motion;
-  const SearchResult found = Search(points, map_from_predicted, prediction);
+  std::vector<SurfacePoint> standing = Standing(points, map_from_predicted);
+  const SearchResult found = Search(standing, map_from_predicted, prediction);
 
   MotionPrior prior;
   prior.map_from_base = map_from_predicted;
@@ -112,18 +114,22 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
       TransportCovariance(filter_.PoseCovariance(), prediction.motion) + prediction.covariance;
   prior.kernel = options_.prior_kernel;
   const auto refine_from = [&](const Pose2& start) {
-    return Refine(points, local_map_, options_.noise, prior, start, options_.refinement);
+    return Refine(standing, local_map_, options_.noise, prior, start, options_.refinement);
   };
   Refinement refined = refine_from(map_from_predicted * FromArcCoordinates(found.deviation));
-  const Velocity2 error = VelocityOverSweep(map_from_predicted.Inverse() * refined.map_from_base,
-                                            prediction.dt, points);
+  Velocity2 error = VelocityOverSweep(map_from_predicted.Inverse() * refined.map_from_base,
+                                      prediction.dt, points);
+  if (refined.degenerate) error.x = error.y = 0.0;  // along a corridor the scan says nothing of it
   if (MattersForSweep(error, points)) {
     points = CorrectSweep(std::move(points), error);
+    standing = Standing(points, refined.map_from_base);
     outcome.sweep_correction = outcome.sweep_correction + error;
     refined = refine_from(refined.map_from_base);
   }
 
-  Filter(refined, CorrectSweep(model.edges, outcome.sweep_correction), map_from_last, prediction);
+  const std::vector<ModelEdge> edges = WithoutWalkers(
+      CorrectSweep(model.edges, outcome.sweep_correction), points, refined.map_from_base);
+  Filter(refined, edges, map_from_last, prediction);
   const ArcCoordinates deviation =
       ToArcCoordinates(map_from_predicted.Inverse() * filter_.map_from_base());
   outcome.on_window_edge = !prediction.window.Contains(deviation);
@@ -132,7 +138,7 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
   outcome.e = found.e;
   outcome.rms = refined.rms;
   outcome.candidates = found.candidates;
-  outcome.points = static_cast<int>(points.size());
+  outcome.points = static_cast<int>(standing.size());
   outcome.matched = refined.matched;
   outcome.degenerate = refined.degenerate && !EdgesHold();
   outcome.degenerate_direction = refined.degenerate_direction;
@@ -148,6 +154,48 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
     InsertIfMoved(points, map_from_base);
   }
   return outcome;
+}
+
+/// True for a point on something small that has not stood there for a while.
+bool LocalMapMatcher::MayWalk(const SurfacePoint& point,
+                              const RigidTransform2& map_from_base) const {
+  if (!point.detached) return false;
+  const Eigen::Vector2d place = map_from_base * point.point;
+  const SurfaceElement* element = local_map_.Nearest(place);
+  const double far_off = options_.local_map.max_merge_offset;
+  return element == nullptr || !element->stands || local_map_.Distance(place, far_off) >= far_off;
+}
+
+/// Without what may walk; at the start that may be all there is.
+std::vector<SurfacePoint> LocalMapMatcher::Standing(std::vector<SurfacePoint> points,
+                                                    const Pose2& map_from_base) const {
+  if (time_ <= options_.local_map.still_time) return points;
+  const RigidTransform2 transform(map_from_base);
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [&](const SurfacePoint& p) { return MayWalk(p, transform); }),
+               points.end());
+  return points;
+}
+
+/// Without the edges that may be on people: the laser sees their legs, the camera shoulders, too.
+std::vector<ModelEdge> LocalMapMatcher::WithoutWalkers(std::vector<ModelEdge> edges,
+                                                       const std::vector<SurfacePoint>& points,
+                                                       const Pose2& map_from_base) const {
+  constexpr double kHalfWidth = 0.35;  // of a body, from any point of its legs [m]
+  const RigidTransform2 transform(map_from_base);
+  for (const SurfacePoint& p : points) {
+    if (!MayWalk(p, transform)) continue;
+    edges.erase(std::remove_if(edges.begin(), edges.end(),
+                               [&](const ModelEdge& edge) {
+                                 const Eigen::Vector2d ray = Direction(edge.bearing);
+                                 const Eigen::Vector2d leg = p.point - edge.camera;
+                                 const double ahead = ray.dot(leg);
+                                 return std::abs(Across(ray).dot(leg)) < kHalfWidth &&
+                                        ahead > 0.0 && ahead < edge.range + kHalfWidth;
+                               }),
+                edges.end());
+  }
+  return edges;
 }
 
 /// True if the camera has told not long ago where along the way the base is.
@@ -176,7 +224,7 @@ void LocalMapMatcher::InsertIfMoved(const std::vector<SurfacePoint>& points,
       std::abs(moved.theta) < options_.insert_angle) {
     return;
   }
-  local_map_.Insert(points, map_from_base, way_);
+  local_map_.Insert(points, map_from_base, way_, time_);
   map_from_inserted_ = map_from_base;
   ++inserted_;
 }

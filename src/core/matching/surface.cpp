@@ -55,6 +55,29 @@ Hits FindHits(const FusedModel& model, double max_incidence) {
   return hits;
 }
 
+/// Marks what is no wider than people and stands in front of all that is beside it: one run, or a
+/// few, such as two legs of which one hides part of the other.
+void MarkDetached(Hits* hits) {
+  constexpr double kMostWidth = 0.8;  // [m]
+  constexpr int kMostRuns = 4;
+  std::vector<SurfacePoint>& points = hits->points;
+  std::vector<std::size_t> borders;  // first point of each run, and the end
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i == 0 || hits->runs[i] != hits->runs[i - 1]) borders.push_back(i);
+  }
+  borders.push_back(points.size());
+  for (std::size_t first = 0; first + 1 < borders.size(); ++first) {
+    const std::size_t begin = borders[first];
+    if (begin > 0 && points[begin - 1].range <= points[begin].range) continue;
+    for (std::size_t last = first + 1; last < borders.size() && last <= first + kMostRuns; ++last) {
+      const std::size_t end = borders[last];
+      if ((points[end - 1].point - points[begin].point).norm() > kMostWidth) break;
+      if (end < points.size() && points[end].range <= points[end - 1].range) continue;
+      for (std::size_t i = begin; i < end; ++i) points[i].detached = true;
+    }
+  }
+}
+
 /// Shares of the laser's variance: of the points across a line that can't be one wall, and of those
 /// that may hide a corner.
 constexpr double kMaxScatter = 4.0;
@@ -90,6 +113,7 @@ std::vector<SurfacePoint> EstimateSurface(const FusedModel& model, const Surface
   Hits hits = FindHits(model, options.max_incidence);
   std::vector<SurfacePoint>& points = hits.points;
   const int count = static_cast<int>(points.size());
+  MarkDetached(&hits);
   if (count < kMinLinePoints) return points;
 
   std::vector<PointSums> sums(points.size() + 1);

@@ -55,6 +55,12 @@ class LocalMapMatcher {
  private:
   SearchResult Search(const std::vector<SurfacePoint>& points, const Pose2& map_from_predicted,
                       const MotionPrediction& prediction) const;
+  bool MayWalk(const SurfacePoint& point, const RigidTransform2& map_from_base) const;
+  std::vector<SurfacePoint> Standing(std::vector<SurfacePoint> points,
+                                     const Pose2& map_from_base) const;
+  std::vector<ModelEdge> WithoutWalkers(std::vector<ModelEdge> edges,
+                                        const std::vector<SurfacePoint>& points,
+                                        const Pose2& map_from_base) const;
   void Filter(const Refinement& scan, const std::vector<ModelEdge>& edges,
               const Pose2& map_from_last, const MotionPrediction& prediction);
   bool EdgesHold() const;
@@ -68,6 +74,7 @@ class LocalMapMatcher {
   int inserted_ = 0;
   int unmatched_ = 0;                   ///< scans since the last that showed something known
   double way_ = 0.0;                    ///< driven so far [m]
+  double time_ = 0.0;                   ///< since the start [s]
   std::optional<double> way_at_edges_;  ///< when an image told something the last time
   double way_at_forgetting_ = 0.0;
 };

@@ -16,6 +16,7 @@ struct SurfacePoint {
   double range = 0.0;            ///< [m]
   double angle_variance = 0.0;   ///< of the direction of the normal [rad^2]
   double time_offset = 0.0;      ///< firing time since the stamp of the scan [s]
+  bool detached = false;         ///< on something small with farther things on both sides
 
   bool has_normal() const { return normal.squaredNorm() > 0.5; }
 };
