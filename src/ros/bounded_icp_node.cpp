@@ -73,6 +73,11 @@ BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_nod
                   [this] { return NumberText(bounded_icp_.learned().encoder_scale, 4); });
   watch_.AddValue("camera yaw correction [deg]",
                   [this] { return NumberText(Degrees(bounded_icp_.learned().camera_yaw), 2); });
+  watch_.AddValue("residuals, rms [m]", [this] { return NumberText(last_match_.rms, 4); });
+  watch_.AddValue("points matched", [this] {
+    return std::to_string(last_match_.matched) + " of " + std::to_string(last_match_.points);
+  });
+  watch_.AddValue("match [ms]", [this] { return match_time_.Text(); });
   watch_.AddValue("models dropped", [this] { return std::to_string(gate_.dropped()); });
 }
 
@@ -101,12 +106,15 @@ void BoundedIcpNode::StartOver(const char* reason) {
 }
 
 void BoundedIcpNode::OnModel(const IcpModelConstPtr& message) {
-  watch_.Arrived(model_subscriber_.getTopic());
+  watch_.Arrived(model_subscriber_.getTopic(), message->header.seq);
   try {
     FusedModel model = FromMessage(*message);
     switch (time_guard_.Check(model.stamp)) {
       case TimeGuard::Verdict::kStale:
         throw std::invalid_argument("its stamp is not later than that of the model before");
+      case TimeGuard::Verdict::kAhead:
+        throw std::invalid_argument(
+            "its stamp leaps ahead of the clock: set the clock of the machine it comes from");
       case TimeGuard::Verdict::kRestarts:
         StartOver("time went back");
         break;
@@ -123,7 +131,7 @@ void BoundedIcpNode::OnModel(const IcpModelConstPtr& message) {
 
 void BoundedIcpNode::ReleaseModels() {
   while (const auto model = gate_.Pop(SteadyNow(), bounded_icp_.odometry())) {
-    Publish(bounded_icp_.Match(*model));
+    Publish(match_time_.Measure([&] { return bounded_icp_.Match(*model); }));
   }
   // The next one is looked at again when its time is up, though nothing arrives.
   wake_up_.In(gate_.TimeLeft(SteadyNow()));

@@ -35,13 +35,23 @@ void InputWatch::Expect(const ros::Subscriber& subscriber, const std::string& ty
 
 void InputWatch::Expect(const std::string& topic, std::function<std::uint32_t()> publishers,
                         const std::string& type, bool optional) {
-  topics_[topic] = {std::move(publishers), type, optional, 0, ros::WallTime()};
+  Topic& t = topics_[topic];
+  t = Topic();
+  t.publishers = std::move(publishers);
+  t.type = type;
+  t.optional = optional;
 }
 
-void InputWatch::Arrived(const std::string& topic) {
+void InputWatch::Arrived(const std::string& topic, std::uint32_t seq) {
+  constexpr std::uint32_t kMostLost = 100000;  // more: it is another publisher's number
   Topic& t = topics_[topic];
   ++t.messages;
   t.last = ros::WallTime::now();
+  if (t.last_seq != 0 && seq > t.last_seq + 1 && seq - t.last_seq < kMostLost) {
+    t.lost += seq - t.last_seq - 1;
+    t.last_lost = t.last;
+  }
+  t.last_seq = seq;
 }
 
 void InputWatch::SetProblem(const std::string& key, const std::string& text) {
@@ -90,6 +100,14 @@ std::string InputWatch::DescribeCrowd(const std::string& name, const Topic& topi
          " nodes publish it, and only one can be right; rostopic info " + name + " names them";
 }
 
+/// Messages that were lost not long ago.
+std::string InputWatch::DescribeLoss(const std::string& name, const Topic& topic) {
+  if (topic.lost == 0 || (ros::WallTime::now() - topic.last_lost).toSec() > kTellPeriod) return "";
+  return "topic " + name + " (" + topic.type + "): " + std::to_string(topic.lost) +
+         " messages were lost on their way, the oldest first: the machine or the network is too "
+         "slow for them; free it from other work, or use nodelets";
+}
+
 void InputWatch::Tell(const ros::WallTimerEvent& event) {
   SetProblem("master", master_watch_.Problem());
   const double age = (event.current_real - begin_).toSec();
@@ -101,6 +119,8 @@ void InputWatch::Tell(const ros::WallTimerEvent& event) {
   for (const auto& [name, topic] : topics_) {
     const std::string crowd = DescribeCrowd(name, topic);
     if (!crowd.empty()) ROS_WARN_STREAM(crowd);
+    const std::string loss = DescribeLoss(name, topic);
+    if (!loss.empty()) ROS_WARN_STREAM(loss);
     if (topic.messages > 0 && (event.current_real - topic.last).toSec() < kSilence) continue;
     const std::string text = "waiting for " + DescribeTopic(name, topic);
     if (topic.optional) {
@@ -115,11 +135,20 @@ void InputWatch::Tell(const ros::WallTimerEvent& event) {
 void InputWatch::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, "working");
-  for (const auto& [name, topic] : topics_) {
-    const bool alive = topic.messages > 0 && (ros::WallTime::now() - topic.last).toSec() < kSilence;
+  const ros::WallTime now = ros::WallTime::now();
+  const double period = diagnosed_.isZero() ? 0.0 : (now - diagnosed_).toSec();
+  diagnosed_ = now;
+  for (auto& [name, topic] : topics_) {
+    const bool alive = topic.messages > 0 && (now - topic.last).toSec() < kSilence;
     status.add(name + " messages", topic.messages);
-    const std::string crowd = DescribeCrowd(name, topic);
-    if (!crowd.empty()) status.mergeSummary(DiagnosticStatus::WARN, crowd);
+    if (period > 0.0) {
+      status.addf(name + " rate [Hz]", "%.1f", (topic.messages - topic.diagnosed) / period);
+    }
+    topic.diagnosed = topic.messages;
+    status.add(name + " lost", topic.lost);
+    for (const std::string& text : {DescribeCrowd(name, topic), DescribeLoss(name, topic)}) {
+      if (!text.empty()) status.mergeSummary(DiagnosticStatus::WARN, text);
+    }
     if (alive) continue;
     status.mergeSummary(topic.optional ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR,
                         "waiting for " + DescribeTopic(name, topic));

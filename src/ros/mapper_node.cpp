@@ -18,6 +18,7 @@ namespace scan_image_slam {
 namespace {
 
 constexpr std::uint32_t kQueue = 40;
+constexpr char kMapProblem[] = "map";
 
 }  // namespace
 
@@ -51,6 +52,7 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
   watch_.AddValue("mode", [this] {
     return mapper_.lost() ? "lost" : mapper_.growing() ? "mapping" : "localization";
   });
+  watch_.AddValue("drawing [ms]", [this] { return map_time_.Text(); });
   watch_.AddValue("paused", [this] { return paused_ ? "yes" : "no"; });
   watch_.AddValue("agreement with the loaded map", [this] { return std::to_string(agreement_); });
   StartWithStateFile(node);
@@ -80,7 +82,7 @@ void MapperNode::Take(const LiveParameters::Values& values) {
 }
 
 void MapperNode::OnMatch(const ScanMatchConstPtr& message) {
-  watch_.Arrived(match_subscriber_.getTopic());
+  watch_.Arrived(match_subscriber_.getTopic(), message->header.seq);
   try {
     ApplyNews();
     const MatchedMotion match = FromMessage(*message);
@@ -125,11 +127,22 @@ void MapperNode::OnMatchedModel(const IcpModelConstPtr& model, const ScanMatchCo
   try {
     const FusedModel scan = FromMessage(*model);
     const MatchedMotion motion = FromMessage(*match);
-    if (const auto keyframe = mapper_.AddModel(scan, motion)) back_end_.Add(keyframe);
+    if (const auto keyframe = Draw(scan, motion)) back_end_.Add(keyframe);
     changed_ = changed_ || mapper_.growing();
     if (auto sighting = mapper_.Look(scan, motion)) back_end_.Look(std::move(*sighting));
   } catch (const std::invalid_argument& error) {
     watch_.Refuse(paired_model_subscriber_.getTopic(), error.what());
+  }
+}
+
+std::shared_ptr<const Keyframe> MapperNode::Draw(const FusedModel& model,
+                                                 const MatchedMotion& match) {
+  try {
+    return map_time_.Measure([&] { return mapper_.AddModel(model, match); });
+  } catch (const std::invalid_argument& error) {
+    watch_.SetProblem(kMapProblem, std::string("scans are left out, as ") + error.what() +
+                                       "; raise it, or lower map_max_range");
+    throw;
   }
 }
 
@@ -220,6 +233,7 @@ void MapperNode::StartOver() {
   trajectory_.Clear();
   encoder_trajectory_.Clear();
   map_publisher_.StartOver();
+  watch_.ForgetProblem(kMapProblem);
   if (mapper_.lost()) transform_publisher_.Stop();
 }
 

@@ -106,6 +106,7 @@ ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle p
   watch_.Expect(scan_subscriber_, "sensor_msgs/LaserScan", false);
   watch_.AddValue("scans dropped while waiting for encoders",
                   [this] { return std::to_string(gate_.dropped()); });
+  watch_.AddValue("fusion [ms]", [this] { return fusion_time_.Text(); });
   watch_.AddValue("camera yaw by edges on objects [deg]", [this] {
     return misfit_ ? NumberText(Degrees(misfit_->yaw), 2) : std::string("not known");
   });
@@ -156,12 +157,15 @@ void ScanImageFusionNode::OnOdometry(Stamp stamp, const Pose2& odom_from_base) {
 }
 
 void ScanImageFusionNode::OnScan(const sensor_msgs::LaserScanConstPtr& message) {
-  watch_.Arrived(scan_subscriber_.getTopic());
+  watch_.Arrived(scan_subscriber_.getTopic(), message->header.seq);
   try {
     const LaserScan scan = ToLaserScan(*message);
     switch (time_guard_.Check(scan.stamp)) {
       case TimeGuard::Verdict::kStale:
         throw std::invalid_argument("its stamp is not later than that of the scan before");
+      case TimeGuard::Verdict::kAhead:
+        throw std::invalid_argument(
+            "its stamp leaps ahead of the clock: set the clock of the machine it comes from");
       case TimeGuard::Verdict::kRestarts:
         StartOver();
         break;
@@ -233,7 +237,9 @@ void ScanImageFusionNode::OnCompressedImage(const sensor_msgs::CompressedImageCo
 }
 
 void ScanImageFusionNode::ReleaseScans() {
-  while (const auto scan = gate_.Pop(SteadyNow(), fusion_.odometry())) Publish(fusion_.Fuse(*scan));
+  while (const auto scan = gate_.Pop(SteadyNow(), fusion_.odometry())) {
+    Publish(fusion_time_.Measure([&] { return fusion_.Fuse(*scan); }));
+  }
   // The next one is looked at again when its time is up, though nothing arrives.
   wake_up_.In(gate_.TimeLeft(SteadyNow()));
 }

@@ -8,8 +8,6 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr std::size_t kMaxBeams = 100000;
-
 Eigen::Quaterniond ToQuaternion(double x, double y, double z, double w) {
   const Eigen::Quaterniond q(w, x, y, z);
   const double norm = q.norm();

@@ -98,7 +98,14 @@ IcpModel ToMessage(const FusedModel& model, const std::string& base_frame) {
 }
 
 FusedModel FromMessage(const IcpModel& message) {
+  constexpr std::size_t kMaxEdges = 10000;
   const std::size_t n = message.ranges.size();
+  if (n > kMaxBeams || message.edges.size() > kMaxEdges) {
+    throw std::invalid_argument("the model has " + std::to_string(n) + " beams and " +
+                                std::to_string(message.edges.size()) + " edges, at most " +
+                                std::to_string(kMaxBeams) + " and " + std::to_string(kMaxEdges) +
+                                " are taken");
+  }
   for (const std::size_t size :
        {message.bearings.size(), message.time_offsets.size(), message.points_x.size(),
         message.points_y.size(), message.edge_weights.size(), message.edge_signs.size()}) {

@@ -160,6 +160,11 @@ class BadScansTest(unittest.TestCase):
         self.refuse(lambda t: room_scan(t - 5.0, self.pose), 'not later')
         self.refuse(lambda t: room_scan(0.0, self.pose), 'stamp is zero')
 
+    def test_a_scan_from_the_future_is_left_out(self):
+        poses = len(self.poses.messages)
+        self.refuse(lambda t: room_scan(t + 30.0, self.pose), 'leaps ahead')
+        self.assertEqual(len(self.poses.messages), poses + 6)
+
     def test_time_that_goes_back_for_good(self):
         """More and more stale scans mean that a clock was set: everything starts over."""
         self.expect_good(self.drive(3))

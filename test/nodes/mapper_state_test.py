@@ -227,6 +227,25 @@ class MapperStateTest(unittest.TestCase):
             process.send_signal(signal.SIGINT)
             self.assertEqual(process.wait(30), 0)
 
+    def test_a_mapper_that_is_told_to_end_saves_first(self):
+        for number, told in enumerate((signal.SIGTERM, signal.SIGINT)):
+            space, name = f'/ending{number}', f'{told.name}.state'
+            process = subprocess.Popen(
+                [program('mapper'), '__ns:=' + space, '_map_folder:=' + self.folder,
+                 '_state_file:=' + name, '_autosave_period:=3600'], stdout=subprocess.DEVNULL)
+            try:
+                robot = Robot(space + '/')
+                robot.wait_for_mapper()
+                robot.begin(FIRST)
+                robot.drive(10)
+                mapped = self.known(rospy.ServiceProxy(space + '/dynamic_map', GetMap)().map)
+            finally:
+                process.send_signal(told)
+                self.assertEqual(process.wait(2.0), 0)
+            reply = self.load(name)
+            self.assertTrue(reply.success, reply.message)
+            self.assertEqual(self.known(self.get_map().map), mapped)
+
     def test_a_mapper_that_dies_goes_on_with_what_it_saved(self):
         robot = Robot('/saving/')
         robot.wait_for_mapper()

@@ -71,6 +71,16 @@ TEST(HostileModel, IsRefused) {
   EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->points_y[0] = 1e30f; }), "");
   EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->edges[0].weight = kNan; }), "");
   EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->bearings.clear(); }), "");
+  EXPECT_NE(RefusalOf(GoodModel(), [](IcpModel* m) { m->edges.resize(10001); }), "");
+  EXPECT_NE(RefusalOf(GoodModel(),
+                      [](IcpModel* m) {
+                        for (auto* floats : {&m->bearings, &m->ranges, &m->time_offsets,
+                                             &m->points_x, &m->points_y, &m->edge_weights}) {
+                          floats->assign(100001, 1.0f);
+                        }
+                        m->edge_signs.assign(100001, 0);
+                      }),
+            "");
 }
 
 TEST(HostileStamp, WithTooManyNanosecondsIsRefused) {

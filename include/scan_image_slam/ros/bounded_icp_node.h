@@ -3,6 +3,7 @@
 #include "scan_image_slam/core/config/slam_parameters.h"
 #include "scan_image_slam/core/matching/bounded_icp.h"
 #include "scan_image_slam/core/sensor/odometry_gate.h"
+#include "scan_image_slam/ros/busy_time.h"
 #include "scan_image_slam/ros/input_watch.h"
 #include "scan_image_slam/ros/live_parameters.h"
 #include "scan_image_slam/ros/odometry_feed.h"
@@ -49,6 +50,7 @@ class BoundedIcpNode {
   tf2_ros::Buffer tf_;
   tf2_ros::TransformListener tf_listener_;
   TimeGuard time_guard_;
+  BusyTime match_time_;
   MatchedMotion last_match_;
   int window_edge_hits_ = 0;
   int matches_ = 0;

@@ -2,6 +2,7 @@
 
 #include "scan_image_slam/ros/master_watch.h"
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
@@ -25,8 +26,10 @@ class InputWatch {
   /// The same for subscribers of other kinds; `publishers` counts those of the topic.
   void Expect(const std::string& topic, std::function<std::uint32_t()> publishers,
               const std::string& type, bool optional);
-  /// A message has come on a topic (its resolved name).
-  void Arrived(const std::string& topic);
+  /// A message has come on a topic (its resolved name). By the numbers that roscpp and rospy give
+  /// to messages with a header, `seq`, those that were lost on their way are counted and told; 0:
+  /// the message has no number, as between nodelets.
+  void Arrived(const std::string& topic, std::uint32_t seq = 0);
 
   /// A condition that keeps the node from its work; an empty text means that it is over.
   void SetProblem(const std::string& key, const std::string& text);
@@ -46,10 +49,15 @@ class InputWatch {
     bool optional = false;
     int messages = 0;
     ros::WallTime last;
+    std::uint32_t last_seq = 0;
+    std::uint32_t lost = 0;  ///< messages
+    ros::WallTime last_lost;
+    int diagnosed = 0;  ///< messages, at the last diagnosis
   };
   void Tell(const ros::WallTimerEvent&);
   std::string DescribeTopic(const std::string& name, const Topic& topic) const;
   static std::string DescribeCrowd(const std::string& name, const Topic& topic);
+  static std::string DescribeLoss(const std::string& name, const Topic& topic);
   void Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   diagnostic_updater::Updater updater_;
@@ -63,6 +71,7 @@ class InputWatch {
   std::map<std::string, Refusal> refused_;  ///< by topic and reason
   std::map<std::string, std::function<std::string()>> values_;
   ros::WallTime begin_;
+  ros::WallTime diagnosed_;
   ros::WallTimer tell_timer_;
   ros::WallTimer diagnose_timer_;
 };

@@ -3,6 +3,7 @@
 #include "scan_image_slam/core/config/slam_parameters.h"
 #include "scan_image_slam/core/mapping/back_end_thread.h"
 #include "scan_image_slam/core/mapping/mapper.h"
+#include "scan_image_slam/ros/busy_time.h"
 #include "scan_image_slam/ros/input_watch.h"
 #include "scan_image_slam/ros/live_parameters.h"
 #include "scan_image_slam/ros/map_publisher.h"
@@ -15,6 +16,7 @@
 #include <scan_image_slam/StateFile.h>
 
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -53,6 +55,7 @@ class MapperNode {
   void Take(const LiveParameters::Values& values);
   void OnMatch(const ScanMatchConstPtr& message);
   void OnMatchedModel(const IcpModelConstPtr& model, const ScanMatchConstPtr& match);
+  std::shared_ptr<const Keyframe> Draw(const FusedModel& model, const MatchedMotion& match);
   void OnInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
   bool GetMap(nav_msgs::GetMap::Request& request, nav_msgs::GetMap::Response& response);
   bool Reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -87,6 +90,7 @@ class MapperNode {
   bool changed_ = false;         ///< the map, since it was last saved on its own
   std::future<void> autosaved_;  ///< valid while a file is being written
   InputWatch watch_;
+  BusyTime map_time_;
   TransformPublisher transform_publisher_;
   MapPublisher map_publisher_;
   PathPublisher trajectory_;

@@ -10,13 +10,15 @@
 
 namespace scan_image_slam {
 
-/// Holds Ctrl-C back while a node is being made: roscpp aborts if it has to shut down half of one.
+/// Holds Ctrl-C and the like back while a node is being made: roscpp aborts if it has to shut down
+/// half of one.
 class InterruptLater {
  public:
   InterruptLater() {
     sigset_t interrupt;
     sigemptyset(&interrupt);
     sigaddset(&interrupt, SIGINT);
+    sigaddset(&interrupt, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &interrupt, &before_);
   }
   ~InterruptLater() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
@@ -27,11 +29,13 @@ class InterruptLater {
   sigset_t before_;
 };
 
-/// main() of a node: spins until it is shut down. A wrong configuration ends it at once, with the
+/// main() of a node: spins until it is shut down, by Ctrl-C or by SIGTERM, which roscpp leaves to
+/// the system and which then would save nothing. A wrong configuration ends it at once, with the
 /// reason and exit code 1.
 template <typename Node>
 int RunNode(int argc, char** argv, const char* name) {
   ros::init(argc, argv, name);
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   ros::NodeHandle node;
   ros::NodeHandle private_node("~");
   try {

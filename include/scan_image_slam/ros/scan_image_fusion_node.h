@@ -4,6 +4,7 @@
 #include "scan_image_slam/core/config/slam_parameters.h"
 #include "scan_image_slam/core/fusion/scan_image_fusion.h"
 #include "scan_image_slam/core/sensor/odometry_gate.h"
+#include "scan_image_slam/ros/busy_time.h"
 #include "scan_image_slam/ros/input_watch.h"
 #include "scan_image_slam/ros/live_parameters.h"
 #include "scan_image_slam/ros/odometry_feed.h"
@@ -68,6 +69,7 @@ class ScanImageFusionNode {
   SensorMount laser_mount_;
   SensorMount camera_mount_;
   TimeGuard time_guard_;
+  BusyTime fusion_time_;
   std::string camera_info_text_;  ///< the intrinsics in use, to notice others
 
   ros::Publisher model_publisher_;

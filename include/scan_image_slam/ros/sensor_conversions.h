@@ -20,7 +20,8 @@ namespace scan_image_slam {
 // Messages of the sensors as the core's types. All throw std::invalid_argument, saying what is
 // wrong, if a message can't be used.
 
-constexpr double kLongestSweep = 60.0;  ///< of a scan that is taken [s]
+constexpr double kLongestSweep = 60.0;     ///< of a scan that is taken [s]
+constexpr std::size_t kMaxBeams = 100000;  ///< of a scan or model that is taken
 
 /// A stamp of zero means that a driver has set none: refused, as more nanoseconds than a second
 /// has.

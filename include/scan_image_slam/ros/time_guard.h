@@ -14,6 +14,7 @@ class TimeGuard {
   enum class Verdict {
     kAdvances,
     kStale,     ///< repeats or goes back: leave this message out
+    kAhead,     ///< leaps ahead of the clock: leave this message out
     kRestarts,  ///< time itself went back (bag played again, clock set): start over
   };
   Verdict Check(Stamp stamp) {
@@ -24,10 +25,14 @@ class TimeGuard {
     const bool ahead = stamp > static_cast<Stamp>(now.toNSec()) + kMaxAhead;
     const bool restarts = clock_went_back_ && !ahead;
     const bool stale = clock_went_back_ ? ahead : last_stamp_ && stamp <= *last_stamp_;
-    // A clock that was set back makes every message stale from then on.
-    if (stale && ++stale_in_a_row_ < kPatience) return Verdict::kStale;
+    // One that comes alone would make all that follow it stale.
+    const bool leaps = !clock_went_back_ && ahead && last_stamp_ && stamp > *last_stamp_ + kMaxGap;
+    // A clock that was set makes every message so from then on.
+    if ((stale || leaps) && ++odd_in_a_row_ < kPatience) {
+      return leaps ? Verdict::kAhead : Verdict::kStale;
+    }
     clock_went_back_ = false;
-    stale_in_a_row_ = 0;
+    odd_in_a_row_ = 0;
     last_stamp_ = stamp;
     return restarts || stale ? Verdict::kRestarts : Verdict::kAdvances;
   }
@@ -35,10 +40,11 @@ class TimeGuard {
  private:
   static constexpr int kPatience = 40;             ///< messages
   static constexpr Stamp kMaxAhead = 200'000'000;  ///< clocks of drivers may be a little fast [ns]
+  static constexpr Stamp kMaxGap = 1'000'000'000;  ///< a clock that is fast all along has none [ns]
   ros::Time last_now_;
   std::optional<Stamp> last_stamp_;
   bool clock_went_back_ = false;  ///< and nothing has begun anew yet
-  int stale_in_a_row_ = 0;
+  int odd_in_a_row_ = 0;          ///< messages that were left out
 };
 
 }  // namespace scan_image_slam

@@ -85,6 +85,12 @@ TEST(Core, HasNoVariablesThatOutliveACall) {
   EXPECT_EQ(PlacesOf(Sources(kCore), R"(^\s*(static|thread_local) (?!const)[^(]*$)"), Places());
 }
 
+TEST(Programs, StartNoOthersAndLoadNoCode) {
+  EXPECT_EQ(PlacesOf(Sources({"include", "src/core", "src/ros", "src/nodes"}),
+                     R"(\b(system|popen|fork|vfork|exec[lv]p?e?|posix_spawnp?|dlopen)\s*\()"),
+            Places());
+}
+
 TEST(Dependencies, OfRosArePointedAtTheCore) {
   EXPECT_EQ(ForbiddenIncludes(Sources(kRos),
                               [](const std::string& include) {
