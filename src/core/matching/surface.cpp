@@ -69,9 +69,13 @@ void MarkDetached(Hits* hits) {
   for (std::size_t first = 0; first + 1 < borders.size(); ++first) {
     const std::size_t begin = borders[first];
     if (begin > 0 && points[begin - 1].range <= points[begin].range) continue;
+    double width = 0.0;
     for (std::size_t last = first + 1; last < borders.size() && last <= first + kMostRuns; ++last) {
       const std::size_t end = borders[last];
-      if ((points[end - 1].point - points[begin].point).norm() > kMostWidth) break;
+      for (std::size_t i = borders[last - 1]; i < end && width <= kMostWidth; ++i) {
+        width = std::max(width, (points[i].point - points[begin].point).norm());
+      }
+      if (width > kMostWidth) break;
       if (end < points.size() && points[end].range <= points[end - 1].range) continue;
       for (std::size_t i = begin; i < end; ++i) points[i].detached = true;
     }

@@ -61,6 +61,12 @@ TEST(Detached, IsNotTheWallThatIsSeenBetweenTwoThings) {
   DetachedWithin(Rectangle(-1.0, 0.3, -0.15, 0.5) + Rectangle(0.15, 0.3, 1.0, 0.5));
 }
 
+TEST(Detached, IsNotARoomThatIsSeenAllRound) {
+  for (const SurfacePoint& p : SurfaceOf(Rectangle(-2.0, -1.5, 3.0, 2.5))) {
+    EXPECT_FALSE(p.detached) << p.point.transpose();
+  }
+}
+
 SurfacePoint Leg() {
   SurfacePoint p;
   p.point = {2.0, 0.0};
