@@ -21,7 +21,7 @@ class BusyTime {
   /// Mean and longest since the last call.
   std::string Text() {
     if (count_ == 0) return "none";
-    const std::string text =
+    std::string text =
         "mean " + NumberText(1e3 * sum_ / count_, 1) + ", longest " + NumberText(1e3 * longest_, 1);
     *this = BusyTime();
     return text;
