@@ -241,7 +241,7 @@ class MapperStateTest(unittest.TestCase):
                 mapped = self.known(rospy.ServiceProxy(space + '/dynamic_map', GetMap)().map)
             finally:
                 process.send_signal(told)
-                self.assertEqual(process.wait(2.0), 0)
+                self.assertEqual(process.wait(10.0), 0)
             reply = self.load(name)
             self.assertTrue(reply.success, reply.message)
             self.assertEqual(self.known(self.get_map().map), mapped)
