@@ -182,6 +182,7 @@ std::vector<ModelEdge> LocalMapMatcher::WithoutWalkers(std::vector<ModelEdge> ed
                                                        const std::vector<SurfacePoint>& points,
                                                        const Pose2& map_from_base) const {
   constexpr double kHalfWidth = 0.35;  // of a body, from any point of its legs [m]
+  if (edges.empty()) return edges;
   const RigidTransform2 transform(map_from_base);
   for (const SurfacePoint& p : points) {
     if (!MayWalk(p, transform)) continue;
