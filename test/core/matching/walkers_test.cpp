@@ -154,8 +154,9 @@ TEST(Walkers, DoNotDragThePoseAlongACorridor) {
   CorridorDrive drive;
   for (int i = 0; i < 60; ++i) drive.Step({});
   double worst = 0.0;
-  for (int i = 0; i < 160; ++i) {  // towards the robot, and past it
-    const double off = drive.Step(BoxAt(4.0 - 1.2 * drive.kPeriod * i, 0.4));
+  for (int i = 0; i < 160; ++i) {                    // towards the robot, and past it
+    const double x = 4.0 - 1.2 * drive.kPeriod * i;  // as wide as a skirt: to be seen well
+    const double off = drive.Step(Rectangle(x, 0.1, x + 0.3, 0.7));
     worst = std::max(worst, std::abs(off));
     EXPECT_TRUE(drive.degenerate()) << i;
   }
