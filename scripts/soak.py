@@ -2,15 +2,18 @@
 """Measures running nodes for a long time, and writes what was seen as a page with pictures.
 
 Calls measure_latency and makes OUT/latency.json, report.md, latency.png and load.png of it; with the
-true trajectory, as simulate writes it, OUT/online.tum and error.png, too. Ctrl-C ends the measurement
-and makes the page. Exit codes: those of measure_latency, 2 if a package is missing.
+true trajectory, as simulate writes it, OUT/online.tum and error.png, too. With --simulate it starts
+all that it measures, a simulated robot included, with a master of its own. Ctrl-C ends the
+measurement and makes the page. Exit codes: those of measure_latency, 2 if a package is missing.
 """
 import argparse
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
+import time
 
 try:
     import matplotlib
@@ -21,6 +24,31 @@ except ImportError as missing:
     print("soak.py: %s; install it with: sudo apt install python3-matplotlib" % missing,
           file=sys.stderr)
     sys.exit(2)
+
+
+ROUNDS = 1000  # more than a day's
+CONNECT = 30.0  # the nodes have so long to begin [s]
+
+
+def start_simulation(arguments):
+    """The three nodes and a robot that drives its path again and again, at a port that is free."""
+    with socket.socket() as free:
+        free.bind(("", 0))
+        port = free.getsockname()[1]
+    out = os.path.abspath(arguments.out)
+    os.environ.update(ROS_MASTER_URI="http://localhost:%d" % port, ROS_HOSTNAME="localhost",
+                      ROS_HOME=os.path.join(out, "ros"))
+    with open(os.path.join(out, "roslaunch.log"), "w") as log:
+        launch = subprocess.Popen(
+            ["roslaunch", "-p", str(port), "scan_image_slam", "simulation.launch", "rviz:=false",
+             "world:=" + arguments.simulate, "rounds:=%d" % ROUNDS, "map_folder:=" + out],
+            stdout=log, stderr=log, start_new_session=True)
+    end = time.monotonic() + CONNECT
+    while time.monotonic() < end and launch.poll() is None and subprocess.run(
+            ["rosparam", "get", "/run_id"], stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL).returncode != 0:
+        time.sleep(0.2)
+    return launch
 
 
 def program(arguments, name):
@@ -43,8 +71,10 @@ def measure(arguments, path):
                 "--scan-topic", arguments.scan_topic, "--pose-topic", arguments.pose_topic]
     if arguments.duration:
         command += ["--duration", str(arguments.duration)]
+    if arguments.simulate:
+        command += ["--wait", str(CONNECT)]
     recorder = None
-    if arguments.truth:
+    if arguments.truth or arguments.simulate:
         recorder = subprocess.Popen(
             program(arguments, "trajectory_recorder") +
             ["_folder:=" + arguments.out, "pose:=" + arguments.pose_topic],
@@ -160,11 +190,21 @@ def main():
     parser.add_argument("--scan-topic", default="scan")
     parser.add_argument("--pose-topic", default="pose")
     parser.add_argument("--truth", help="true trajectory of the run, TUM format: to judge the poses")
+    parser.add_argument("--simulate", metavar="WORLD",
+                        help="start nodes and a simulated robot in this world")
     parser.add_argument("--programs", help="folder of measure_latency, if rosrun does not find it")
     arguments = parser.parse_args()
     os.makedirs(arguments.out, exist_ok=True)
     path = os.path.join(arguments.out, "latency.json")
-    code = measure(arguments, path)
+    launch = start_simulation(arguments) if arguments.simulate else None
+    try:
+        code = measure(arguments, path)
+    finally:
+        if launch:
+            launch.send_signal(signal.SIGINT)
+            wait_for(launch)
+    if arguments.simulate:  # the robot itself has told it
+        arguments.truth = os.path.join(arguments.out, "truth.tum")
     if code != 0:
         return code
     with open(path) as file:

@@ -2,12 +2,12 @@
 # All tests and checks, on a fresh Debian 12 or Ubuntu 20.04 machine: installs, builds, tests.
 #   scripts/test.sh              everything
 #   scripts/test.sh unit tidy    only these steps (and the build they need)
-# Steps: format build unit tools live sanitize fuzz bench tidy builds
+# Steps: format build unit tools live sanitize threads fuzz bench tidy builds
 # Prints one line for each step, and all that a step has said if it fails. Tests with recorded data
 # look for it in ../shared/data, or in the folder SCAN_IMAGE_SLAM_DATA.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-all_steps=(format build unit tools live sanitize fuzz bench tidy builds)
+all_steps=(format build unit tools live sanitize threads fuzz bench tidy builds)
 steps=("$@")
 [ $# -eq 0 ] && steps=("${all_steps[@]}")
 for step in "${steps[@]}"; do
@@ -24,7 +24,6 @@ export SCAN_IMAGE_SLAM_DATA=${SCAN_IMAGE_SLAM_DATA:-$repository/../shared/data}
 build=$repository/build_test
 sanitized=$repository/build_sanitize
 threaded=$repository/build_threads
-fuzzed=$repository/build_fuzz
 logs=$build/logs
 mkdir -p "$logs"
 passed=0
@@ -67,49 +66,61 @@ run_live() {
   fi
 }
 
-# Warnings are the business of the other build: sanitizers make the compiler see ghosts.
-run_sanitize() {
-  local flags=(-DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1")
-  BUILD_TARGETS="all tests" "$here/build.sh" "$sanitized" \
-    -DSCAN_IMAGE_SLAM_SANITIZE=address,undefined "${flags[@]}"
-  # Libraries of ROS leak what lives as long as the program.
-  export ASAN_OPTIONS=detect_leaks=0:detect_stack_use_after_return=1
-  run_ctest "$sanitized" -j "$jobs" -R '_gtest_'
-  local tools=$sanitized/devel/lib/scan_image_slam
-  "$build/devel/lib/scan_image_slam/simulate" --world laboratory --out "$logs/run.bag" --duration 3
-  "$tools/slam_offline" --bag "$logs/run.bag" --out "$logs/run"
-  # The live graph. The manager of nodelets is a program of ROS, so the sanitizers are loaded before.
-  LD_PRELOAD="$(gcc -print-file-name=libasan.so) $(gcc -print-file-name=libubsan.so)" \
-    run_ctest "$sanitized" -R 'test_nodes_(whole_graph|whole_graph_nodelets|mapper_state)\.test'
-  # What shares its data with another thread; of ROS only the nodes do (docs/architecture.md).
-  BUILD_TARGETS=core_mapping_test "$here/build.sh" "$threaded" -DSCAN_IMAGE_SLAM_SANITIZE=thread \
-    "${flags[@]}"
-  "$threaded/devel/lib/scan_image_slam/core_mapping_test" --gtest_filter='BackEndThread.*'
+# Without ccache, which would read the precompiled headers again for every source.
+clang_options=(-DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_COMPILER_LAUNCHER=
+  -DSCAN_IMAGE_SLAM_PRECOMPILE=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo
+  -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only")
+
+# With what the fuzzer needs, so that the fuzz programs take the same libraries.
+build_sanitized() {  # TARGETS...
+  BUILD_TARGETS=$* "$here/build.sh" "$sanitized" -DSCAN_IMAGE_SLAM_FUZZ=ON "${clang_options[@]}"
 }
 
-# A few seconds each; what they find is kept in $fuzzed, and belongs into test/fuzz/corpus.
+live_programs=(scan_image_fusion bounded_icp mapper slam_offline simulate)
+
+run_sanitize() {
+  build_sanitized "${live_programs[@]}" scan_image_slam_nodelets ros_messages_test \
+    $(cd "$repository/test/core" && printf 'core_%s_test ' *)
+  # Libraries of ROS leak what lives as long as the program.
+  export ASAN_OPTIONS=detect_leaks=0:detect_stack_use_after_return=1
+  run_ctest "$sanitized" -j "$jobs" -R '_gtest_(core_|ros_messages)'
+  # The live graph, bags at half their speed. The manager of nodelets is a program of ROS, so the
+  # sanitizer is loaded before.
+  export SCAN_IMAGE_SLAM_PLAY_RATE=0.5
+  LD_PRELOAD=$(clang++ -print-file-name=libclang_rt.asan-x86_64.so) \
+    run_ctest "$sanitized" -R 'test_nodes_(whole_graph|whole_graph_nodelets|mapper_state)\.test'
+}
+
+# The live graph with the thread sanitizer; test/tsan_suppressions.txt tells what it can't know.
+run_threads() {
+  BUILD_TARGETS="${live_programs[*]} core_mapping_test" "$here/build.sh" "$threaded" \
+    -DSCAN_IMAGE_SLAM_SANITIZE=thread "${clang_options[@]}"
+  export SCAN_IMAGE_SLAM_PLAY_RATE=0.25
+  # Threads of roscpp and log4cxx take their own mutexes in either order.
+  export TSAN_OPTIONS=detect_deadlocks=0:suppressions=$repository/test/tsan_suppressions.txt
+  "$threaded/devel/lib/scan_image_slam/core_mapping_test" --gtest_filter='BackEndThread.*'
+  run_ctest "$threaded" -R 'test_nodes_(whole_graph|mapper_state)\.test'
+}
+
+# A few seconds each; what they find is kept in $found, and belongs into test/fuzz/corpus.
 run_fuzz() {
-  BUILD_TARGETS=fuzz_programs "$here/build.sh" "$fuzzed" -DSCAN_IMAGE_SLAM_FUZZ=ON \
-    -DCMAKE_CXX_COMPILER=clang++ -DCATKIN_ENABLE_TESTING=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only"
-  local source name seeds
+  build_sanitized fuzz_programs
+  local found=$sanitized/found source name seeds
   for source in "$repository"/test/fuzz/*_fuzz.cpp; do
     name=$(basename "$source" .cpp)
     seeds=("$repository/test/fuzz/corpus/$name")
     [ "$name" = yaml_fuzz ] && seeds+=("$repository/config" "$repository/config/worlds")
-    mkdir -p "$fuzzed/found/$name"
+    mkdir -p "$found/$name"
     echo "$name"
-    "$fuzzed/devel/lib/scan_image_slam/$name" -seed=1 -max_total_time=6 -timeout=20 \
-      -artifact_prefix="$fuzzed/found/$name-" "$fuzzed/found/$name" "${seeds[@]}" 2>&1
+    "$sanitized/devel/lib/scan_image_slam/$name" -seed=1 -max_total_time=6 -timeout=20 \
+      -artifact_prefix="$found/$name-" "$found/$name" "${seeds[@]}" 2>&1
   done
 }
 
 # That they run, not how fast: machines differ.
 run_bench() { "$build/devel/lib/scan_image_slam/stages_bench" --benchmark_min_time=0.01; }
 
-run_tidy() {
-  run-clang-tidy -quiet -j "$jobs" -p "$build" "^$repository/(src|bench)/" 2>/dev/null
-}
+run_tidy() { "$here/tidy.py" "$build" --jobs "$jobs"; }
 
 run_builds() { "$here/check_builds.sh"; }
 
@@ -131,7 +142,7 @@ run_step() {  # NAME
   fi
 }
 
-if [[ " ${steps[*]} " != *" build "* && ! "${steps[*]}" =~ ^(format|fuzz|builds)$ ]]; then
+if [[ " ${steps[*]} " != *" build "* && " ${steps[*]} " =~ \ (unit|tools|live|bench|tidy)\  ]]; then
   steps=(build "${steps[@]}")
 fi
 [ -d "$SCAN_IMAGE_SLAM_DATA" ] ||

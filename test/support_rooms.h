@@ -36,11 +36,11 @@ class TestRandom {
 };
 
 /// A room is walls seen from above, in the frame `room` [m].
-struct Wall {
+struct RoomWall {
   Eigen::Vector2d from;
   Eigen::Vector2d to;
 };
-using Room = std::vector<Wall>;
+using Room = std::vector<RoomWall>;
 
 /// The four walls of a rectangle.
 inline Room Rectangle(double min_x, double min_y, double max_x, double max_y) {
@@ -76,7 +76,7 @@ inline Room PlainCorridor() { return {{{-60, 1}, {60, 1}}, {{-60, -1}, {60, -1}}
 inline double CastRay(const Room& room, const Eigen::Vector2d& origin, double heading) {
   const Eigen::Vector2d ray(std::cos(heading), std::sin(heading));
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Wall& wall : room) {
+  for (const RoomWall& wall : room) {
     const Eigen::Vector2d along = wall.to - wall.from;
     const Eigen::Vector2d start = wall.from - origin;
     const double determinant = ray.x() * along.y() - ray.y() * along.x();

@@ -17,10 +17,7 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr std::uint32_t kModelQueue = 20;
 constexpr std::size_t kMaxWaitingModels = 20;
-
-Stamp SteadyNow() { return static_cast<Stamp>(ros::SteadyTime::now().toNSec()); }
 
 const char* StatusText(MatchStatus status) {
   switch (status) {
@@ -105,8 +102,11 @@ void BoundedIcpNode::StartOver(const char* reason) {
   gate_.Clear();
 }
 
-void BoundedIcpNode::OnModel(const IcpModelConstPtr& message) {
-  watch_.Arrived(model_subscriber_.getTopic(), message->header.seq);
+void BoundedIcpNode::OnModel(const ros::MessageEvent<const IcpModel>& event) {
+  const std::string topic = model_subscriber_.getTopic();
+  const IcpModelConstPtr& message = event.getConstMessage();
+  watch_.Arrived(topic, message->header.stamp.toNSec(), message->header.seq);
+  if (!watch_.InTime(topic, event.getReceiptTime())) return;
   try {
     FusedModel model = FromMessage(*message);
     switch (time_guard_.Check(model.stamp)) {
@@ -125,7 +125,7 @@ void BoundedIcpNode::OnModel(const IcpModelConstPtr& message) {
     gate_.Push(std::move(model), stamp, SteadyNow());
     ReleaseModels();
   } catch (const std::invalid_argument& error) {
-    watch_.Refuse(model_subscriber_.getTopic(), error.what());
+    watch_.Refuse(topic, error.what());
   }
 }
 
@@ -141,9 +141,24 @@ void BoundedIcpNode::Publish(const MatchedMotion& match) {
   last_match_ = match;
   ++matches_;
   if (match.status == MatchStatus::kOnWindowEdge) ++window_edge_hits_;
+  CheckMatching();
   CheckCalibration();
   PublishShared(match_publisher_, ToMessage(match, options_.node.odometry.base_frame));
   if (window_publisher_.getNumSubscribers() > 0) PublishWindow(match);
+}
+
+/// A moment is nothing to be told; it is if it lasts.
+void BoundedIcpNode::CheckMatching() {
+  constexpr double kPatience = 1.0;  // [s]
+  const MatchStatus status = last_match_.status;
+  const bool odd = status == MatchStatus::kOnWindowEdge || status == MatchStatus::kTooFewPoints;
+  if (!odd || last_match_.stamp < odd_since_.value_or(last_match_.stamp)) odd_since_.reset();
+  if (odd && !odd_since_) odd_since_ = last_match_.stamp;
+  const bool lasts = odd && Seconds(last_match_.stamp - *odd_since_) > kPatience;
+  const char* advice = status == MatchStatus::kTooFewPoints
+                           ? "; is the laser covered, or is everything out of its range?"
+                           : "; a wheel may slip, or window/ is too narrow for these encoders";
+  watch_.SetProblem("matching", lasts ? StatusText(status) + std::string(advice) : "");
 }
 
 /// Small errors of the camera's yaw are made up for; it is told if they are large and certain.

@@ -10,7 +10,7 @@ geometry_msgs::Point ToPoint(const Pose2& pose) {
   return point;
 }
 
-std_msgs::ColorRGBA Colour(float red, float green, float blue) {
+std_msgs::ColorRGBA OpaqueColour(float red, float green, float blue) {
   std_msgs::ColorRGBA colour;
   colour.r = red;
   colour.g = green;
@@ -33,19 +33,19 @@ visualization_msgs::MarkerArray ToMarkers(const GraphState& graph, const std::st
   keyframes.type = visualization_msgs::Marker::POINTS;
   keyframes.scale.x = 0.06;
   keyframes.scale.y = 0.06;
-  keyframes.color = Colour(0.1F, 0.5F, 0.1F);
+  keyframes.color = OpaqueColour(0.1F, 0.5F, 0.1F);
 
   visualization_msgs::Marker way = marker;
   way.ns = "way";
   way.type = visualization_msgs::Marker::LINE_LIST;
   way.scale.x = 0.02;
-  way.color = Colour(0.1F, 0.7F, 0.1F);
+  way.color = OpaqueColour(0.1F, 0.7F, 0.1F);
 
   visualization_msgs::Marker closures = marker;
   closures.ns = "closures";
   closures.type = visualization_msgs::Marker::LINE_LIST;
   closures.scale.x = 0.03;
-  closures.color = Colour(0.9F, 0.2F, 0.7F);
+  closures.color = OpaqueColour(0.9F, 0.2F, 0.7F);
 
   for (const auto& [id, pose] : graph.poses) {
     keyframes.points.push_back(ToPoint(pose));

@@ -1,5 +1,9 @@
 #include "scan_image_slam/ros/input_watch.h"
 
+#include "scan_image_slam/core/recording/number_text.h"
+
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <ros/console.h>
@@ -12,6 +16,8 @@ constexpr double kFirstTell = 2.5;       // so that a missing input is named wit
 constexpr double kLookPeriod = 0.5;      // [s]
 constexpr double kDiagnosePeriod = 1.0;  // [s]
 constexpr double kSilence = 2.0;         // after which a topic counts as gone [s]
+constexpr double kMaxWait = 0.2;         // of a message for its turn [s]
+constexpr double kMaxClockOffset = 0.1;  // of a topic against another [s]
 
 }  // namespace
 
@@ -42,16 +48,29 @@ void InputWatch::Expect(const std::string& topic, std::function<std::uint32_t()>
   t.optional = optional;
 }
 
-void InputWatch::Arrived(const std::string& topic, std::uint32_t seq) {
+void InputWatch::Arrived(const std::string& topic, std::uint64_t measured, std::uint32_t seq) {
   constexpr std::uint32_t kMostLost = 100000;  // more: it is another publisher's number
   Topic& t = topics_[topic];
   ++t.messages;
   t.last = ros::WallTime::now();
+  if (measured != 0) {
+    const auto now = static_cast<double>(ros::Time::now().toNSec());
+    const double delay = 1e-9 * (now - static_cast<double>(measured));
+    t.delay = std::min(t.delay.value_or(delay), delay);
+  }
   if (t.last_seq != 0 && seq > t.last_seq + 1 && seq - t.last_seq < kMostLost) {
     t.lost += seq - t.last_seq - 1;
     t.last_lost = t.last;
   }
   t.last_seq = seq;
+}
+
+bool InputWatch::InTime(const std::string& topic, const ros::Time& received) {
+  if ((ros::Time::now() - received).toSec() <= kMaxWait) return true;
+  Topic& t = topics_[topic];
+  ++t.left_out;
+  t.last_left_out = ros::WallTime::now();
+  return false;
 }
 
 void InputWatch::SetProblem(const std::string& key, const std::string& text) {
@@ -73,6 +92,7 @@ void InputWatch::Refuse(const std::string& topic, const std::string& reason) {
   Refusal& refusal = refused_[key];
   ++refusal.messages;
   const ros::WallTime now = ros::WallTime::now();
+  refusal.last = now;
   if ((now - refusal.told).toSec() < kTellPeriod) return;
   refusal.told = now;
   ROS_WARN_STREAM(topic << ": a message was not used: " << reason);
@@ -100,12 +120,44 @@ std::string InputWatch::DescribeCrowd(const std::string& name, const Topic& topi
          " nodes publish it, and only one can be right; rostopic info " + name + " names them";
 }
 
-/// Messages that were lost not long ago.
+/// Messages that were lost, or left out, not long ago.
 std::string InputWatch::DescribeLoss(const std::string& name, const Topic& topic) {
-  if (topic.lost == 0 || (ros::WallTime::now() - topic.last_lost).toSec() > kTellPeriod) return "";
-  return "topic " + name + " (" + topic.type + "): " + std::to_string(topic.lost) +
-         " messages were lost on their way, the oldest first: the machine or the network is too "
-         "slow for them; free it from other work, or use nodelets";
+  const ros::WallTime lately = ros::WallTime::now() - ros::WallDuration(kTellPeriod);
+  const std::string what = "topic " + name + " (" + topic.type + "): ";
+  if (topic.left_out > 0 && topic.last_left_out > lately) {
+    return what + std::to_string(topic.left_out) +
+           " messages were left out, as newer ones were waiting: the machine is too slow for them; "
+           "free it from other work, or play the bag slower";
+  }
+  if (topic.lost > 0 && topic.last_lost > lately) {
+    return what + std::to_string(topic.lost) +
+           " messages were lost on their way, the oldest first: the machine or the network is too "
+           "slow for them; free it from other work, or use nodelets";
+  }
+  return "";
+}
+
+/// Whether the stamps of all topics are of one clock, by those that came since the last look.
+void InputWatch::CompareClocks() {
+  constexpr int kSure = 2;  // looks; one may fall on a moment at which the clock was set
+  const auto main = std::find_if(topics_.begin(), topics_.end(),
+                                 [](const auto& entry) { return !entry.second.optional; });
+  for (auto& [name, topic] : topics_) {
+    if (main == topics_.end() || !topic.delay || !main->second.delay) continue;
+    const double offset = *topic.delay - *main->second.delay;  // > 0: the topic is behind
+    topic.odd_clock = std::abs(offset) > kMaxClockOffset ? topic.odd_clock + 1 : 0;
+    const bool odd = topic.odd_clock >= kSure;
+    if (odd || topic.odd_clock == 0) {
+      SetProblem("clock of " + name,
+                 odd ? "its messages come with stamps that are " + NumberText(std::abs(offset), 2) +
+                           (offset > 0.0 ? " s older" : " s newer") + " than those of " +
+                           main->first +
+                           ": the clocks of their machines differ (chrony mends that), or they "
+                           "are held up on their way"
+                     : "");
+    }
+  }
+  for (auto& [name, topic] : topics_) topic.delay.reset();
 }
 
 void InputWatch::Tell(const ros::WallTimerEvent& event) {
@@ -146,6 +198,8 @@ void InputWatch::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     }
     topic.diagnosed = topic.messages;
     status.add(name + " lost", topic.lost);
+    status.add(name + " left out", topic.left_out);
+    if (topic.delay) status.addf(name + " stamp to arrival [ms]", "%.0f", 1e3 * *topic.delay);
     for (const std::string& text : {DescribeCrowd(name, topic), DescribeLoss(name, topic)}) {
       if (!text.empty()) status.mergeSummary(DiagnosticStatus::WARN, text);
     }
@@ -153,11 +207,15 @@ void InputWatch::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.mergeSummary(topic.optional ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR,
                         "waiting for " + DescribeTopic(name, topic));
   }
+  CompareClocks();
   for (const auto& [key, text] : problems_) {
     status.mergeSummaryf(DiagnosticStatus::WARN, "%s: %s", key.c_str(), text.c_str());
   }
   for (const auto& [reason, refusal] : refused_) {
     status.add("refused: " + reason, refusal.messages);
+    if ((now - refusal.last).toSec() < kTellPeriod) {
+      status.mergeSummary(DiagnosticStatus::WARN, "a message was not used: " + reason);
+    }
   }
   for (const auto& [key, value] : values_) status.add(key, value());
 }

@@ -115,14 +115,15 @@ LiveParameters::LiveParameters(ros::NodeHandle private_node, const ParameterSet&
   service_ = private_node.advertiseService("set_parameters", &LiveParameters::OnRequest, this);
 }
 
-LiveParameters::Values LiveParameters::Check(const dynamic_reconfigure::Config& config) const {
+LiveParameters::Values LiveParameters::Checked(const dynamic_reconfigure::Config& config,
+                                               const ParameterSet& set) {
   Values values;
   const auto check = [&](const std::string& name, const ParameterValue& value) {
-    if (!current_.Get(name).live) {
-      throw ParameterError(current_.node() + "/" + name +
+    if (!set.Get(name).live) {
+      throw ParameterError(set.node() + "/" + name +
                            ": can't be changed while the node runs; set it before the start");
     }
-    values[name] = current_.Checked(name, value);
+    values[name] = set.Checked(name, value);
   };
   for (const auto& item : config.bools) check(item.name, item.value != 0);
   for (const auto& item : config.ints) check(item.name, item.value);
@@ -135,7 +136,7 @@ LiveParameters::Values LiveParameters::Check(const dynamic_reconfigure::Config& 
 bool LiveParameters::OnRequest(dynamic_reconfigure::ReconfigureRequest& request,
                                dynamic_reconfigure::ReconfigureResponse& response) {
   try {
-    const Values values = Check(request.config);
+    const Values values = Checked(request.config, current_);
     take_(values);
     for (const auto& [name, value] : values) {
       // For who looks it up, and for the node if it has to be started anew.

@@ -9,7 +9,14 @@ namespace fs = std::filesystem;
 
 std::string PathFrom(const std::string& folder, const std::string& name) {
   if (name.empty()) throw std::invalid_argument("the name of the file is empty");
-  return fs::weakly_canonical(fs::absolute(folder) / name).string();
+  if (name.find('\0') != std::string::npos) {
+    throw std::invalid_argument("the name of the file holds a character zero");
+  }
+  try {
+    return fs::weakly_canonical(fs::absolute(folder) / name).string();
+  } catch (const fs::filesystem_error& error) {  // too long, or without end
+    throw std::invalid_argument(error.what());
+  }
 }
 
 std::string PathInside(const std::string& folder, const std::string& name) {

@@ -17,7 +17,8 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr std::uint32_t kQueue = 40;
+constexpr std::uint32_t kMatchQueue = 40;
+constexpr int kMaxWaiting = 20;  // jobs of the back-end, before the robot is looked for again
 constexpr char kMapProblem[] = "map";
 
 }  // namespace
@@ -39,11 +40,11 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
       trajectory_(node, "trajectory", options_.node.map_frame, options_.node.trajectory_spacing),
       encoder_trajectory_(node, "encoder_trajectory", options_.node.map_frame,
                           options_.node.trajectory_spacing),
-      pairs_(kQueue),
+      pairs_(kMatchQueue),
       live_parameters_(private_node, Options().Parameters(), options_.Parameters(),
                        [this](const LiveParameters::Values& values) { Take(values); }),
       files_(node) {
-  pose_publisher_ = node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kQueue);
+  pose_publisher_ = node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", kMatchQueue);
   command_publisher_ = node.advertise<std_msgs::String>("syscommand", 1);
   graph_publisher_ = node.advertise<visualization_msgs::MarkerArray>("pose_graph", 1, true);
   get_map_service_ = node.advertiseService("dynamic_map", &MapperNode::GetMap, this);
@@ -53,6 +54,8 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
     return mapper_.lost() ? "lost" : mapper_.growing() ? "mapping" : "localization";
   });
   watch_.AddValue("drawing [ms]", [this] { return map_time_.Text(); });
+  watch_.AddValue("waiting for the back-end",
+                  [this] { return std::to_string(back_end_.waiting()); });
   watch_.AddValue("paused", [this] { return paused_ ? "yes" : "no"; });
   watch_.AddValue("agreement with the loaded map", [this] { return std::to_string(agreement_); });
   StartWithStateFile(node);
@@ -60,10 +63,10 @@ MapperNode::MapperNode(ros::NodeHandle node, ros::NodeHandle private_node)
 
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   initial_pose_subscriber_ = node.subscribe("initialpose", 1, &MapperNode::OnInitialPose, this);
-  match_subscriber_ = node.subscribe("scan_match", kQueue, &MapperNode::OnMatch, this, hints);
+  match_subscriber_ = node.subscribe("scan_match", kMatchQueue, &MapperNode::OnMatch, this, hints);
   watch_.Expect(match_subscriber_, "scan_image_slam/ScanMatch", false);
-  paired_model_subscriber_.subscribe(node, "icp_model", kQueue, hints);
-  paired_match_subscriber_.subscribe(node, "scan_match", kQueue, hints);
+  paired_model_subscriber_.subscribe(node, "icp_model", kMatchQueue, hints);
+  paired_match_subscriber_.subscribe(node, "scan_match", kMatchQueue, hints);
   pairs_.connectInput(paired_model_subscriber_, paired_match_subscriber_);
   pairs_.registerCallback(&MapperNode::OnMatchedModel, this);
   map_timer_ = node.createWallTimer(ros::WallDuration(options_.node.map_update_interval),
@@ -82,7 +85,7 @@ void MapperNode::Take(const LiveParameters::Values& values) {
 }
 
 void MapperNode::OnMatch(const ScanMatchConstPtr& message) {
-  watch_.Arrived(match_subscriber_.getTopic(), message->header.seq);
+  watch_.Arrived(match_subscriber_.getTopic(), message->header.stamp.toNSec(), message->header.seq);
   try {
     ApplyNews();
     const MatchedMotion match = FromMessage(*message);
@@ -122,13 +125,17 @@ bool MapperNode::EncodersAreMissing(Stamp stamp) {
   return std::fabs(Seconds(stamp - *without_encoders_since_)) >= kPatience;
 }
 
-void MapperNode::OnMatchedModel(const IcpModelConstPtr& model, const ScanMatchConstPtr& match) {
+/// Poses are told of every match; what is drawn can wait for the robot to pass there again.
+void MapperNode::OnMatchedModel(const IcpModelConstPtr& model,
+                                const ros::MessageEvent<const ScanMatch>& match) {
   if (paused_ && mapper_.growing()) return;
+  if (!watch_.InTime(match_subscriber_.getTopic(), match.getReceiptTime())) return;
   try {
     const FusedModel scan = FromMessage(*model);
-    const MatchedMotion motion = FromMessage(*match);
+    const MatchedMotion motion = FromMessage(*match.getConstMessage());
     if (const auto keyframe = Draw(scan, motion)) back_end_.Add(keyframe);
     changed_ = changed_ || mapper_.growing();
+    if (back_end_.waiting() >= kMaxWaiting) return;
     if (auto sighting = mapper_.Look(scan, motion)) back_end_.Look(std::move(*sighting));
   } catch (const std::invalid_argument& error) {
     watch_.Refuse(paired_model_subscriber_.getTopic(), error.what());

@@ -10,9 +10,9 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr double kPollPeriod = 0.01;   // of the transform [s]
-constexpr double kTopicSilence = 1.0;  // after which TF is looked at [s]
-constexpr std::uint32_t kQueue = 100;  // readings are small and none should be lost
+constexpr double kPollPeriod = 0.01;          // of the transform [s]
+constexpr double kTopicSilence = 1.0;         // after which TF is looked at [s]
+constexpr std::uint32_t kReadingQueue = 100;  // readings are small and none should be lost
 
 }  // namespace
 
@@ -20,7 +20,7 @@ OdometryFeed::OdometryFeed(ros::NodeHandle node, const OdometryInput& input,
                            const tf2_ros::Buffer* tf, InputWatch* watch, OnPose on_pose)
     : input_(input), tf_(tf), watch_(watch), on_pose_(std::move(on_pose)) {
   if (input_.source == OdometrySource::kAuto || input_.source == OdometrySource::kTopic) {
-    subscriber_ = node.subscribe("odom", kQueue, &OdometryFeed::OnOdometry, this,
+    subscriber_ = node.subscribe("odom", kReadingQueue, &OdometryFeed::OnOdometry, this,
                                  ros::TransportHints().tcpNoDelay());
     watch_->Expect(subscriber_, "nav_msgs/Odometry", true);
   }
@@ -31,7 +31,7 @@ OdometryFeed::OdometryFeed(ros::NodeHandle node, const OdometryInput& input,
 }
 
 void OdometryFeed::OnOdometry(const nav_msgs::OdometryConstPtr& message) {
-  watch_->Arrived(subscriber_.getTopic());
+  watch_->Arrived(subscriber_.getTopic(), message->header.stamp.toNSec());
   last_message_ = ros::WallTime::now();
   try {
     on_pose_(ToStamp(message->header.stamp), ToPose2(message->pose.pose));

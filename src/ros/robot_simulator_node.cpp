@@ -4,6 +4,7 @@
 #include "scan_image_slam/ros/simulation_messages.h"
 
 #include <filesystem>
+#include <stdexcept>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double kStep = 0.002;          // of the simulation in real time [s]
 constexpr double kCommandTimeout = 0.5;  // a robot that is told nothing any more stops [s]
-constexpr std::uint32_t kQueue = 10;
+constexpr std::uint32_t kSensorQueue = 10;
 
 template <typename Message>
 Message WithFrame(Message message, const std::string& prefix) {
@@ -38,6 +39,8 @@ RobotSimulatorNode::RobotSimulatorNode(ros::NodeHandle node, ros::NodeHandle pri
   SimulationOptions options;
   options.seed = static_cast<std::uint64_t>(private_node.param("seed", 1));
   options.path = private_node.param<std::string>("path", "");
+  options.rounds = private_node.param("rounds", 1);
+  if (options.rounds < 1) throw std::invalid_argument("robot_simulator/rounds: must be at least 1");
   options.images = private_node.param("images", true);
   options.ideal = !private_node.param("noise", true);
   options.follow_path = private_node.param("follow_path", true);
@@ -45,12 +48,12 @@ RobotSimulatorNode::RobotSimulatorNode(ros::NodeHandle node, ros::NodeHandle pri
   simulation_ = std::make_unique<RobotSimulation>(LoadScenario(FindWorld(world)), options);
   camera_info_ = WithFrame(ToMessage(simulation_->camera_lens(), options.start), frame_prefix_);
 
-  scan_publisher_ = node.advertise<sensor_msgs::LaserScan>("scan", kQueue);
-  odom_publisher_ = node.advertise<nav_msgs::Odometry>("odom", kQueue);
-  truth_publisher_ = node.advertise<geometry_msgs::PoseStamped>("ground_truth", kQueue);
+  scan_publisher_ = node.advertise<sensor_msgs::LaserScan>("scan", kSensorQueue);
+  odom_publisher_ = node.advertise<nav_msgs::Odometry>("odom", kSensorQueue);
+  truth_publisher_ = node.advertise<geometry_msgs::PoseStamped>("ground_truth", kSensorQueue);
   finished_publisher_ = node.advertise<std_msgs::Bool>("simulation_finished", 1, true);
   if (options.images) {
-    camera_info_publisher_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", kQueue);
+    camera_info_publisher_ = node.advertise<sensor_msgs::CameraInfo>("camera_info", kSensorQueue);
     image_publisher_ = image_transport::ImageTransport(node).advertise("image_raw", 2);
   }
   std::vector<geometry_msgs::TransformStamped> mounts;

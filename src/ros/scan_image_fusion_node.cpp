@@ -22,14 +22,19 @@ namespace {
 
 constexpr std::uint32_t kScanQueue = 20;  // half a second at the usual rates
 constexpr std::uint32_t kImageQueue = 2;
-constexpr std::uint32_t kModelQueue = 20;
 constexpr std::size_t kMaxWaitingScans = 20;
 constexpr double kEdgeHeight = 1.0;    // of a drawn edge [m]
 constexpr double kMisfitPeriod = 5.0;  // between two looks at the calibration [s]
 constexpr double kCameraGone = 20.0;   // it may be another, or elsewhere, when it is back [s]
 constexpr char kMisfit[] = "camera calibration";
 
-Stamp SteadyNow() { return static_cast<Stamp>(ros::SteadyTime::now().toNSec()); }
+/// When the last beam was measured, before which no driver can tell of the scan [ns].
+std::uint64_t EndOf(const sensor_msgs::LaserScan& scan) {
+  const std::uint64_t begin = scan.header.stamp.toNSec();
+  const double sweep = static_cast<double>(scan.time_increment) * scan.ranges.size();
+  if (begin == 0 || !(sweep > 0.0 && sweep < kLongestSweep)) return begin;
+  return begin + static_cast<std::uint64_t>(1e9 * sweep);
+}
 
 std_msgs::ColorRGBA EdgeColour(int sign) {
   std_msgs::ColorRGBA colour;
@@ -156,8 +161,11 @@ void ScanImageFusionNode::OnOdometry(Stamp stamp, const Pose2& odom_from_base) {
   ReleaseScans();
 }
 
-void ScanImageFusionNode::OnScan(const sensor_msgs::LaserScanConstPtr& message) {
-  watch_.Arrived(scan_subscriber_.getTopic(), message->header.seq);
+void ScanImageFusionNode::OnScan(const ros::MessageEvent<const sensor_msgs::LaserScan>& event) {
+  const std::string topic = scan_subscriber_.getTopic();
+  const sensor_msgs::LaserScanConstPtr& message = event.getConstMessage();
+  watch_.Arrived(topic, EndOf(*message), message->header.seq);
+  if (!watch_.InTime(topic, event.getReceiptTime())) return;
   try {
     const LaserScan scan = ToLaserScan(*message);
     switch (time_guard_.Check(scan.stamp)) {
@@ -178,7 +186,7 @@ void ScanImageFusionNode::OnScan(const sensor_msgs::LaserScanConstPtr& message) 
     gate_.Push(scan, scan.stamp, SteadyNow());
     ReleaseScans();
   } catch (const std::invalid_argument& error) {
-    watch_.Refuse(scan_subscriber_.getTopic(), error.what());
+    watch_.Refuse(topic, error.what());
   }
 }
 
@@ -191,7 +199,7 @@ void ScanImageFusionNode::StartOver() {
 
 void ScanImageFusionNode::OnCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
   const std::string topic = camera_info_subscriber_.getTopic();
-  watch_.Arrived(topic);
+  watch_.Arrived(topic, 0);  // calibrations are not of a moment
   try {
     if (!camera_mount_.Update(message->header.frame_id)) {
       LoseCamera();
@@ -219,7 +227,7 @@ void ScanImageFusionNode::LoseCamera() {
 }
 
 void ScanImageFusionNode::OnImage(const sensor_msgs::ImageConstPtr& message) {
-  watch_.Arrived(image_subscriber_.getTopic());
+  watch_.Arrived(image_subscriber_.getTopic(), message->header.stamp.toNSec());
   try {
     fusion_.AddImage({ToStamp(message->header.stamp), ToGrey(*message), ToStdPointer(message)});
   } catch (const std::invalid_argument& error) {
@@ -228,7 +236,7 @@ void ScanImageFusionNode::OnImage(const sensor_msgs::ImageConstPtr& message) {
 }
 
 void ScanImageFusionNode::OnCompressedImage(const sensor_msgs::CompressedImageConstPtr& message) {
-  watch_.Arrived(compressed_subscriber_.getTopic());
+  watch_.Arrived(compressed_subscriber_.getTopic(), message->header.stamp.toNSec());
   try {
     fusion_.AddImage({ToStamp(message->header.stamp), ToGrey(*message), nullptr});
   } catch (const std::invalid_argument& error) {

@@ -34,6 +34,8 @@ ros::Time ToRosTime(Stamp stamp) {
   return time;
 }
 
+Stamp SteadyNow() { return static_cast<Stamp>(ros::SteadyTime::now().toNSec()); }
+
 LaserScan ToLaserScan(const sensor_msgs::LaserScan& message) {
   if (message.ranges.empty()) throw std::invalid_argument("the scan has no beams");
   if (message.ranges.size() > kMaxBeams) {
@@ -86,10 +88,13 @@ Pose2 ToPose2(const geometry_msgs::Pose& pose) {
 }
 
 Eigen::Isometry3d ToIsometry(const geometry_msgs::Transform& transform) {
+  const auto& t = transform.translation;
+  if (!IsPlausiblePosition(t.x, t.y) || !IsPlausiblePosition(t.z, 0.0)) {
+    throw std::invalid_argument("the translation is not finite, or out of this world");
+  }
   const auto& r = transform.rotation;
   Eigen::Isometry3d isometry(ToQuaternion(r.x, r.y, r.z, r.w));
-  isometry.pretranslate(
-      Eigen::Vector3d(transform.translation.x, transform.translation.y, transform.translation.z));
+  isometry.pretranslate(Eigen::Vector3d(t.x, t.y, t.z));
   return isometry;
 }
 

@@ -128,9 +128,36 @@ class BoundedIcpNodeTest(unittest.TestCase):
                 self.expect_told(reason)
 
     def expect_told(self, reason):
-        """The console tells one reason in five seconds; /diagnostics counts all."""
+        """The console tells one reason in five seconds; /diagnostics counts all, and warns."""
         self.diagnostics.find(lambda m: any(reason in value.key for status in m.status
                                             for value in status.values), reason)
+        self.diagnostics.find(lambda m: any('was not used' in status.message and status.level > 0
+                                            for status in m.status), 'a warning')
+
+    def test_a_laser_that_sees_nothing_is_told_if_it_lasts(self):
+        self.start_over()
+        for _ in range(5):
+            self.match()
+        heard = len(self.console.messages)
+
+        def blind():
+            type(self).time += PERIOD
+            self.odom.publish(make_odometry(self.time, *self.odometry))
+            model = make_model(self.time)
+            model.ranges = [math.inf] * len(model.ranges)
+            model.points_x = model.points_y = [math.nan] * len(model.ranges)
+            self.model.publish(model)
+            self.assertEqual(self.matches.at(self.time).status, ScanMatch.STATUS_TOO_FEW_POINTS)
+        for _ in range(20):  # half a second
+            blind()
+        self.match((0.0, 0.0, 0.0))
+        for _ in range(60):
+            blind()
+        self.console.said('matching: too few points', 'covered', after=heard)
+        self.match((0.0, 0.0, 0.0))
+        self.console.said('matching: all right now', after=heard)
+        said = [m.msg for m in self.console.messages[heard:]]
+        self.assertEqual(sum('all right now' in text for text in said), 1, said)
 
     def test_the_window_is_drawn_on_demand(self):
         windows = Recorder('search_window', MarkerArray).wait_connected()

@@ -18,14 +18,14 @@ class CameraFaultsTest(CameraTest):
         cls.pixels = numpy.full((HEIGHT, WIDTH), 60, numpy.uint8)
         cls.pixels[:, 200:] = 180
 
-    def drive(self, info=None, image=None):
+    def drive(self, info=None, image=None, image_delay=0.0):
         """One scan with an image; gives its model. Fails if the laser's part is not as ever."""
         type(self).time += 0.1
         t = self.time
         if info is not None:
             info.header.stamp = rospy.Time.from_sec(t)
             self.info.publish(info)
-        image = make_image(t, self.pixels if image is None else image)
+        image = make_image(t - image_delay, self.pixels if image is None else image)
         self.image.publish(image)
         for offset in (-0.05, 0.0, 0.05):
             self.odom.publish(make_odometry(t + offset))
@@ -73,6 +73,24 @@ class CameraFaultsTest(CameraTest):
     def test_unknown_frame(self):
         self.expect_fault('camera transform', 'cam_link', 'TF holds base_link, camera, laser',
                           info=make_camera_info(0, frame='cam_link'))
+
+    def test_clock_of_another_time(self):
+        self.drive_until(True, info=make_camera_info(0))
+        heard = len(self.console.messages)
+
+        def told():
+            self.drive(image_delay=3.0)
+            return any('clock of /image_raw' in m.msg and '3 s older' in m.msg
+                       for m in self.console.messages[heard:])
+        wait_for(told, 'the clock to be told')
+        self.assertFalse(self.drive(image_delay=3.0).has_image)
+
+        def mended():
+            self.drive()
+            return any('clock of /image_raw: all right now' in m.msg
+                       for m in self.console.messages[heard:])
+        wait_for(mended, 'the clock to be right')
+        self.drive_until(True)
 
     def test_faults_are_in_diagnostics(self):
         self.drive_until(True, info=make_camera_info(0))

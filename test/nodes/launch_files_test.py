@@ -185,7 +185,7 @@ class LaunchFilesTest(unittest.TestCase):
                     self.assertEqual(together[name], expected, name)
         self.assertEqual(there['/mapper/state_file'], '/a.state')
         self.assertEqual(there['/mapper/autosave_period'], 60)
-        self.assertTrue(base.nodes[0].respawn)
+        self.assertTrue(all(node.respawn for node in robot.nodes + base.nodes))
         self.assertFalse([name for name in there if 'fusion' in name or 'icp' in name])
         self.assertIn(('rviz', 'rviz'), types(load('base_side.launch')))
 

@@ -18,6 +18,7 @@ from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 
 DEADLINE = 60.0  # [s]; generous, because it is only waited for in vain if a test fails
+PLAY_RATE = os.environ.get('SCAN_IMAGE_SLAM_PLAY_RATE', '1')  # nodes with sanitizers are slow
 START = 1000.0  # first stamp of hand-made messages [s]
 WALLS = (-3.0, 5.0, -2.0, 4.0)  # of the room: min_x, max_x, min_y, max_y [m]
 
@@ -310,7 +311,7 @@ class Player:
     def __init__(self, bag, readers, *options):
         """`readers`: pairs of node and topic."""
         self._process = subprocess.Popen(
-            ['rosbag', 'play', '--clock', '--quiet', '--pause', *options, bag,
+            ['rosbag', 'play', '--clock', '--quiet', '--pause', '--rate', PLAY_RATE, *options, bag,
              '__name:=' + self.NAME], stdin=subprocess.DEVNULL)
         wait_for(lambda: set(readers) <= self._connections(), 'the nodes to hear the player')
         pause = rospy.ServiceProxy('/player/pause_playback', SetBool)

@@ -154,6 +154,20 @@ class MeasureLatencyTest(unittest.TestCase):
             self.assertIn(f']({picture})', page)
             self.assertGreater(os.path.getsize(os.path.join(self.folder, picture)), 5000)
 
+    def test_long_run_by_one_command(self):
+        process = self.run_in_group(program('soak.py'), '--simulate', 'laboratory', '--duration',
+                                    '5', '--period', '1', '--out', self.folder)
+        output, _ = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 0, self.said())
+        self.assertIn(os.path.join(self.folder, 'report.md'), output)
+        with open(os.path.join(self.folder, 'report.md')) as file:
+            page = file.read()
+        for node in ('/scan_image_fusion', '/bounded_icp', '/mapper'):
+            self.assertIn(f'| {node} | ', page)
+        self.assertIn('0 poses that are not finite', page)
+        worst = float(re.search(r'at worst ([0-9.]+) m', page).group(1))
+        self.assertTrue(0.0 < worst < 0.05, worst)
+
     def test_processor_time_of_the_nodes(self):
         process = self.start('--scan-topic', 'front/scan')
         before = time.process_time()

@@ -104,6 +104,30 @@ TEST(HostileScan, ThatTakesForEverIsRefused) {
   EXPECT_NE(Refusal([&] { ToLaserScan(scan); }).find("time_increment"), std::string::npos);
 }
 
+TEST(HostileScan, WithTooManyBeamsIsRefused) {
+  sensor_msgs::LaserScan scan;
+  scan.header.stamp = ros::Time(1000, 0);
+  scan.angle_increment = 1e-5f;
+  scan.range_max = 30.0f;
+  scan.ranges.assign(100000, 1.0f);
+  EXPECT_EQ(Refusal([&] { ToLaserScan(scan); }), "");
+  scan.ranges.push_back(1.0f);
+  EXPECT_NE(Refusal([&] { ToLaserScan(scan); }).find("100001 beams"), std::string::npos);
+}
+
+TEST(HostileTransform, OutOfThisWorldIsRefused) {
+  geometry_msgs::Transform transform;
+  transform.rotation.w = 1.0;
+  EXPECT_EQ(Refusal([&] { ToIsometry(transform); }), "");
+  for (const double bad : {kNan, kInfinity, 1e300}) {
+    geometry_msgs::Transform wrong = transform;
+    wrong.translation.z = bad;
+    EXPECT_NE(Refusal([&] { ToIsometry(wrong); }), "");
+  }
+  transform.rotation.w = 0.5;
+  EXPECT_NE(Refusal([&] { ToIsometry(transform); }).find("quaternion"), std::string::npos);
+}
+
 TEST(HostileCalibration, WithAnImpossibleRegionIsRefused) {
   sensor_msgs::CameraInfo info;
   info.width = 640;

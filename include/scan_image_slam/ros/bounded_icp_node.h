@@ -12,7 +12,9 @@
 #include <scan_image_slam/IcpModel.h>
 
 #include <memory>
+#include <optional>
 
+#include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <std_msgs/String.h>
 #include <tf2_ros/transform_listener.h>
@@ -34,11 +36,12 @@ class BoundedIcpNode {
   };
   static Options ReadOptions(const ros::NodeHandle& private_node);
   void Take(const LiveParameters::Values& values);
-  void OnModel(const IcpModelConstPtr& message);
+  void OnModel(const ros::MessageEvent<const IcpModel>& event);
   void OnOdometry(Stamp stamp, const Pose2& odom_from_base);
   void OnCommand(const std_msgs::StringConstPtr& message);
   void ReleaseModels();
   void Publish(const MatchedMotion& match);
+  void CheckMatching();
   void CheckCalibration();
   void PublishWindow(const MatchedMotion& match);
   void StartOver(const char* reason);
@@ -52,6 +55,7 @@ class BoundedIcpNode {
   TimeGuard time_guard_;
   BusyTime match_time_;
   MatchedMotion last_match_;
+  std::optional<Stamp> odd_since_;  ///< of the first of the matches in a row that are none
   int window_edge_hits_ = 0;
   int matches_ = 0;
 

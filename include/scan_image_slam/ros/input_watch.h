@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include <diagnostic_updater/diagnostic_updater.h>
@@ -26,10 +27,17 @@ class InputWatch {
   /// The same for subscribers of other kinds; `publishers` counts those of the topic.
   void Expect(const std::string& topic, std::function<std::uint32_t()> publishers,
               const std::string& type, bool optional);
-  /// A message has come on a topic (its resolved name). By the numbers that roscpp and rospy give
-  /// to messages with a header, `seq`, those that were lost on their way are counted and told; 0:
-  /// the message has no number, as between nodelets.
-  void Arrived(const std::string& topic, std::uint32_t seq = 0);
+  /// A message has come on a topic (its resolved name), of something measured at `measured` [ns],
+  /// whatever the sender says; 0: it says nothing. Clocks that disagree are told by it: topics
+  /// whose messages come with stamps of another time than those of the topic that is not optional.
+  /// By the numbers that roscpp and rospy give to messages with a header, `seq`, those that were
+  /// lost on their way are counted and told; 0: the message has no number, as between nodelets.
+  void Arrived(const std::string& topic, std::uint64_t measured, std::uint32_t seq = 0);
+
+  /// False: the message, which this process has had since `received`, has waited so long for its
+  /// turn that newer ones are behind it. It should be left out, so that a node with too much to do
+  /// stays up to date; that is counted and told.
+  bool InTime(const std::string& topic, const ros::Time& received);
 
   /// A condition that keeps the node from its work; an empty text means that it is over.
   void SetProblem(const std::string& key, const std::string& text);
@@ -52,12 +60,17 @@ class InputWatch {
     std::uint32_t last_seq = 0;
     std::uint32_t lost = 0;  ///< messages
     ros::WallTime last_lost;
-    int diagnosed = 0;  ///< messages, at the last diagnosis
+    std::uint32_t left_out = 0;  ///< messages, for want of time
+    ros::WallTime last_left_out;
+    int diagnosed = 0;            ///< messages, at the last diagnosis
+    std::optional<double> delay;  ///< between stamp and arrival, the least since then [s]
+    int odd_clock = 0;            ///< diagnoses in a row that saw another clock than the scans'
   };
   void Tell(const ros::WallTimerEvent&);
   std::string DescribeTopic(const std::string& name, const Topic& topic) const;
   static std::string DescribeCrowd(const std::string& name, const Topic& topic);
   static std::string DescribeLoss(const std::string& name, const Topic& topic);
+  void CompareClocks();
   void Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   diagnostic_updater::Updater updater_;
@@ -66,6 +79,7 @@ class InputWatch {
   std::map<std::string, std::string> problems_;
   struct Refusal {
     int messages = 0;
+    ros::WallTime last;
     ros::WallTime told;
   };
   std::map<std::string, Refusal> refused_;  ///< by topic and reason

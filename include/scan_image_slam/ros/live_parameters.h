@@ -25,10 +25,13 @@ class LiveParameters {
   LiveParameters(ros::NodeHandle private_node, const ParameterSet& defaults, ParameterSet current,
                  Take take);
 
+  /// What a request asks for. Throws ParameterError if a parameter of it is not in the set, can't
+  /// be changed now, or has another type or range.
+  static Values Checked(const dynamic_reconfigure::Config& config, const ParameterSet& set);
+
  private:
   bool OnRequest(dynamic_reconfigure::ReconfigureRequest& request,
                  dynamic_reconfigure::ReconfigureResponse& response);
-  Values Check(const dynamic_reconfigure::Config& config) const;
 
   ros::NodeHandle private_node_;
   ParameterSet current_;

@@ -25,6 +25,7 @@
 #include <message_filters/time_synchronizer.h>
 #include <nav_msgs/GetMap.h>
 #include <nav_msgs/Path.h>
+#include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <std_srvs/Empty.h>
 #include <std_srvs/SetBool.h>
@@ -54,7 +55,8 @@ class MapperNode {
   static Options ReadOptions(const ros::NodeHandle& private_node);
   void Take(const LiveParameters::Values& values);
   void OnMatch(const ScanMatchConstPtr& message);
-  void OnMatchedModel(const IcpModelConstPtr& model, const ScanMatchConstPtr& match);
+  void OnMatchedModel(const IcpModelConstPtr& model,
+                      const ros::MessageEvent<const ScanMatch>& match);
   std::shared_ptr<const Keyframe> Draw(const FusedModel& model, const MatchedMotion& match);
   void OnInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message);
   bool GetMap(nav_msgs::GetMap::Request& request, nav_msgs::GetMap::Response& response);

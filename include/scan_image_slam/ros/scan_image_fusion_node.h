@@ -17,6 +17,7 @@
 #include <string>
 
 #include <image_transport/image_transport.h>
+#include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
@@ -41,7 +42,7 @@ class ScanImageFusionNode {
   static Options ReadOptions(const ros::NodeHandle& private_node);
   void Take(const LiveParameters::Values& values);
   void SubscribeCamera(ros::NodeHandle node, const std::string& name);
-  void OnScan(const sensor_msgs::LaserScanConstPtr& message);
+  void OnScan(const ros::MessageEvent<const sensor_msgs::LaserScan>& event);
   void OnCameraInfo(const sensor_msgs::CameraInfoConstPtr& message);
   void LoseCamera();
   void OnImage(const sensor_msgs::ImageConstPtr& message);

@@ -27,6 +27,8 @@ constexpr std::size_t kMaxBeams = 100000;  ///< of a scan or model that is taken
 /// has.
 Stamp ToStamp(const ros::Time& time);
 ros::Time ToRosTime(Stamp stamp);
+/// When something has come in, by a clock that nobody sets (see OdometryGate) [ns].
+Stamp SteadyNow();
 
 /// At least one beam and at most 100000, finite angles, an increment that is not zero, a minute at
 /// most.

@@ -6,6 +6,7 @@
 #include <scan_image_slam/IcpModel.h>
 #include <scan_image_slam/ScanMatch.h>
 
+#include <cstdint>
 #include <string>
 
 #include <geometry_msgs/Pose2D.h>
@@ -16,6 +17,8 @@ namespace scan_image_slam {
 
 // What travels between the nodes. Conversions from messages throw std::invalid_argument, saying
 // what is wrong, if a message can't be used.
+
+constexpr std::uint32_t kModelQueue = 20;  ///< of models and matches: half a second
 
 IcpModel ToMessage(const FusedModel& model, const std::string& base_frame);
 FusedModel FromMessage(const IcpModel& message);

@@ -1,5 +1,7 @@
 #include "scan_image_slam/core/calibration/calibration_solver.h"
 
+#include "scan_image_slam/core/calibration/upright_edges.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -19,7 +21,6 @@ using Matrix = Eigen::Matrix<double, kCalibrationSize, kCalibrationSize>;
 const CalibrationVector kPriorStddev = {0.2, 0.2, 0.2, 0.1, 0.1, 0.1, 0.004};
 /// What is less certain is refused.
 const CalibrationVector kMaxStddev = {0.002, 0.01, 0.01, 0.004, 0.005, 0.005, 1.0};
-constexpr double kPixelStddev = 0.4;      // of an edge [px]
 constexpr double kUprightStddev = 0.005;  // of what is taken to be vertical [rad]
 constexpr double kKernel = 2.0;           // residuals of so many standard deviations count half
 
@@ -74,7 +75,7 @@ class LeastSquares {
 
   void Add(const std::vector<CalibrationPair>& pairs) {
     for (const CalibrationPair& pair : pairs) {
-      const double stddev = std::hypot(pair.sight.bearing_stddev, kPixelStddev * data_.pixel);
+      const double stddev = std::hypot(pair.sight.bearing_stddev, kEdgeStddev * data_.pixel);
       terms_.push_back({MakeCost(PairCost{pair, data_.camera, stddev}), Block(pair.sight.view)});
     }
   }

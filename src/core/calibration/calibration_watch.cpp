@@ -1,5 +1,7 @@
 #include "scan_image_slam/core/calibration/calibration_watch.h"
 
+#include "scan_image_slam/core/calibration/upright_edges.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -25,19 +27,18 @@ constexpr int kYawSteps = 35;        // to either side, up to the gate
 constexpr double kTimeStep = 0.005;  // of the vote [s]
 constexpr int kTimeSteps = 20;       // to either side
 
-constexpr double kPixelStddev = 0.4;  // of an edge [px]
-constexpr double kYawStddev = 1.0;    // of what is known before [rad]
-constexpr double kTimeStddev = 0.1;   // [s]
+constexpr double kYawStddev = 1.0;   // of what is known before [rad]
+constexpr double kTimeStddev = 0.1;  // [s]
 
 /// A correction of the camera, and how certain it is: yaw [rad] and time [s].
-struct Fit {
+struct ShiftFit {
   Eigen::Vector2d correction{0, 0};
   Eigen::Vector2d stddev{0, 0};
 };
 
 /// The yaw and the time for which most edges lie on discontinuities; of times alike, the least.
-Fit Vote(const Pairs& pairs) {
-  Fit best;
+ShiftFit Vote(const Pairs& pairs) {
+  ShiftFit best;
   double most = 0.0;
   for (int n = 0; n <= 2 * kTimeSteps; ++n) {
     const int step = n % 2 == 0 ? n / 2 : -(n + 1) / 2;
@@ -59,7 +60,7 @@ Fit Vote(const Pairs& pairs) {
 }
 
 /// Least squares with Tukey's weights: pairs that do not belong together have none.
-Fit Refine(Fit fit, const Pairs& pairs) {
+ShiftFit Refine(ShiftFit fit, const Pairs& pairs) {
   constexpr int kIterations = 10;
   constexpr double kFar = 4.0;  // of no weight [standard deviations]
   const Eigen::Vector2d known(kYawStddev, kTimeStddev);
@@ -81,7 +82,7 @@ Fit Refine(Fit fit, const Pairs& pairs) {
   return fit;
 }
 
-Fit FitTo(const Pairs& pairs) { return Refine(Vote(pairs), pairs); }
+ShiftFit FitTo(const Pairs& pairs) { return Refine(Vote(pairs), pairs); }
 
 }  // namespace
 
@@ -136,7 +137,7 @@ void CalibrationWatch::AddPairs(const JumpSight& sight, const FusionEvidence& ev
     if (std::abs(pair.residual) > kGate) continue;
     const double moved = BearingResidual(sight, viewed, camera, later.data());
     pair.by_time = (moved - pair.residual) / kMoment;
-    pair.stddev = std::hypot(sight.bearing_stddev, kPixelStddev * image.step());
+    pair.stddev = std::hypot(sight.bearing_stddev, kEdgeStddev * image.step());
     pair.view = view_;
     pairs_.push_back(pair);
   }
@@ -149,14 +150,14 @@ std::optional<CameraMisfit> CalibrationWatch::Misfit() const {
   constexpr double kCertain = 3.0;          // standard deviations
   if (pairs_.size() < kMinPairs || Views() < kMinViews) return std::nullopt;
   const auto middle = pairs_.begin() + static_cast<long>(pairs_.size() / 2);
-  const Fit older = FitTo(Pairs(pairs_.begin(), middle));
-  const Fit newer = FitTo(Pairs(middle, pairs_.end()));
+  const ShiftFit older = FitTo(Pairs(pairs_.begin(), middle));
+  const ShiftFit newer = FitTo(Pairs(middle, pairs_.end()));
   const Eigen::Vector2d apart = (older.correction - newer.correction).cwiseAbs();
   const Eigen::Vector2d doubt = kCertain * (older.stddev + newer.stddev);
   if (apart[0] > kYawTolerance + doubt[0] || apart[1] > kTimeTolerance + doubt[1]) {
     return std::nullopt;
   }
-  const Fit all = Refine(newer, Pairs(pairs_.begin(), pairs_.end()));
+  const ShiftFit all = Refine(newer, Pairs(pairs_.begin(), pairs_.end()));
   return CameraMisfit{all.correction[0], std::max(all.stddev[0], 0.5 * apart[0]), all.correction[1],
                       std::max(all.stddev[1], 0.5 * apart[1])};
 }

@@ -9,7 +9,7 @@
 namespace scan_image_slam {
 namespace {
 
-std::string Location(const std::string& file, int line) {
+std::string PlaceIn(const std::string& file, int line) {
   return line < 0 ? file + ": " : file + ":" + std::to_string(line + 1) + ": ";
 }
 
@@ -24,7 +24,7 @@ YAML::Node Parse(const std::string& text, const std::string& file) {
   try {
     return YAML::Load(text);
   } catch (const YAML::ParserException& error) {
-    throw YamlError(Location(file, error.mark.line) + error.msg);
+    throw YamlError(PlaceIn(file, error.mark.line) + error.msg);
   }
 }
 
@@ -60,7 +60,7 @@ std::string YamlSection::PathOf(const std::string& key) const {
 void YamlSection::FailAt(const YAML::Node& node, const std::string& path,
                          const std::string& reason) const {
   const std::string about = path.empty() ? "" : "key '" + path + "': ";
-  throw YamlError(Location(file_, node.Mark().line) + about + reason);
+  throw YamlError(PlaceIn(file_, node.Mark().line) + about + reason);
 }
 
 void YamlSection::Fail(const std::string& key, const std::string& reason) const {

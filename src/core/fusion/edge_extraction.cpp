@@ -22,7 +22,7 @@ struct Run {
 };
 
 /// The runs in (nearly) one column, the strongest first.
-using Line = std::vector<Run>;
+using BrokenLine = std::vector<Run>;
 
 /// Edge pixels outside the region of interest, or next to what the camera does not see, do not
 /// count.
@@ -52,13 +52,13 @@ Run Summarise(const EdgeChain& chain, const EdgePixels& pixels) {
 }
 
 /// Joins the runs of one sign that lie in (nearly) the same column: a broken line is one edge.
-std::vector<Line> JoinRuns(std::vector<Run> runs, double tolerance) {
+std::vector<BrokenLine> JoinRuns(std::vector<Run> runs, double tolerance) {
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
     return a.strength != b.strength ? a.strength > b.strength : a.column < b.column;
   });
-  std::vector<Line> lines;
+  std::vector<BrokenLine> lines;
   for (const Run& run : runs) {
-    const auto same = std::find_if(lines.begin(), lines.end(), [&](const Line& line) {
+    const auto same = std::find_if(lines.begin(), lines.end(), [&](const BrokenLine& line) {
       return line.front().sign == run.sign &&
              std::abs(line.front().column - run.column) < tolerance;
     });
@@ -71,7 +71,7 @@ std::vector<Line> JoinRuns(std::vector<Run> runs, double tolerance) {
   return lines;
 }
 
-bool ShareRows(const Line& a, const Line& b) {
+bool ShareRows(const BrokenLine& a, const BrokenLine& b) {
   const auto overlap = [](const Run& r, const Run& s) {
     return r.top <= s.bottom && s.top <= r.bottom;
   };
@@ -88,13 +88,13 @@ struct Surroundings {
   double right = 0.0;
 };
 
-Surroundings SurroundingsOf(const Line& line, const std::vector<Line>& lines) {
+Surroundings SurroundingsOf(const BrokenLine& line, const std::vector<BrokenLine>& lines) {
   constexpr double kReach = 6.0;  // [px]
   constexpr double kNear = 4.0;   // [px]
   constexpr double kBlur = 2.0;   // as far as a step is smeared [px]
   const double at = line.front().column;
   Surroundings around{{at}, at - kReach, at + kReach};
-  for (const Line& other : lines) {
+  for (const BrokenLine& other : lines) {
     const double column = other.front().column;
     const double distance = std::abs(column - at);
     if (&other == &line || distance > kReach + kBlur || !ShareRows(line, other)) continue;
@@ -114,7 +114,7 @@ Surroundings SurroundingsOf(const Line& line, const std::vector<Line>& lines) {
 
 /// Mean grey levels around a line in its rows, in the columns of its surroundings that the camera
 /// sees.
-GreyProfile ProfileOf(const Line& line, const Surroundings& around, const cv::Mat& grey,
+GreyProfile ProfileOf(const BrokenLine& line, const Surroundings& around, const cv::Mat& grey,
                       const cv::Mat& seen) {
   const int middle = static_cast<int>(std::lround(line.front().column));
   const auto is_seen = [&](int x) {
@@ -153,7 +153,7 @@ GreyProfile ProfileOf(const Line& line, const Surroundings& around, const cv::Ma
   return profile;
 }
 
-ImageEdge ToEdge(const Line& line, const StepFit& step) {
+ImageEdge ToEdge(const BrokenLine& line, const StepFit& step) {
   ImageEdge edge;
   edge.column = step.column;
   edge.column_stddev = step.stddev;
@@ -221,9 +221,9 @@ std::vector<ImageEdge> ExtractEdges(const cv::Mat& grey, const BearingImage& ima
   for (const EdgeChain& chain : FollowChains(pixels, options.edge_threshold)) {
     if (chain.Strength() > 0.0) runs.push_back(Summarise(chain, pixels));
   }
-  const std::vector<Line> lines = JoinRuns(std::move(runs), options.column_tolerance);
+  const std::vector<BrokenLine> lines = JoinRuns(std::move(runs), options.column_tolerance);
   std::vector<ImageEdge> edges;
-  for (const Line& line : lines) {
+  for (const BrokenLine& line : lines) {
     double rows = 0.0;
     for (const Run& run : line) rows += 0.5 * run.strength;
     if (rows < options.min_edge_rows) continue;

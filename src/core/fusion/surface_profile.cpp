@@ -12,14 +12,15 @@ namespace {
 /// Beams without a hit that a surface may bridge.
 constexpr int kMaxMissingBeams = 2;
 /// Tangent of the steepest incidence at which two neighbouring hits are still one surface.
-constexpr double kMaxSlope = 14.0;
+constexpr double kMaxRangeSlope = 14.0;
 /// Columns by which a surface reaches over its last beam into a farther one.
 constexpr int kReachOver = 2;
 /// Surfaces whose distances differ by less are the same [m].
 constexpr double kSameSurface = 0.1;
 
 bool Connected(const ModelBeam& a, const ModelBeam& b) {
-  return std::abs(b.range - a.range) <= kMaxSlope * std::min(a.range, b.range) * AngleBetween(a, b);
+  return std::abs(b.range - a.range) <=
+         kMaxRangeSlope * std::min(a.range, b.range) * AngleBetween(a, b);
 }
 
 class ProfileBuilder {
@@ -39,11 +40,11 @@ class ProfileBuilder {
     const int begin = std::max(0, static_cast<int>(std::ceil(std::min(ca, cb))));
     const int end = std::min(image_.columns() - 1, static_cast<int>(std::floor(std::max(ca, cb))));
     const Eigen::Vector2d along = pb - pa;
-    const double cross = pa.x() * along.y() - pa.y() * along.x();
+    const double cross = Cross(pa, along);
     for (int c = begin; c <= end; ++c) {
       const double bearing = image_.Bearing(c);
       const Eigen::Vector2d ray(std::cos(bearing), std::sin(bearing));
-      const double denominator = ray.x() * along.y() - ray.y() * along.x();
+      const double denominator = Cross(ray, along);
       if (denominator == 0.0) continue;
       Offer(c, cross / denominator, std::abs(c - ca) < std::abs(c - cb) ? a : b);
     }

@@ -32,7 +32,7 @@ std::optional<EdgeLandmark> RefineLandmark(EdgeLandmark landmark, const ModelEdg
                                            const Eigen::Matrix3d& pose_covariance) {
   const Eigen::Vector2d n = Across(Direction(edge.bearing));
   const Eigen::Vector2d p = edge.point();
-  const Eigen::Vector3d by_pose(n.x(), n.y(), p.x() * n.y() - p.y() * n.x());
+  const Eigen::Vector3d by_pose(n.x(), n.y(), Cross(p, n));
   const double measured =
       std::pow(edge.bearing_stddev * edge.range, 2) + by_pose.dot(pose_covariance * by_pose);
   const Eigen::Vector2d across = map_from_base.Rotate(n);

@@ -13,7 +13,7 @@ constexpr double kMinVariance = 1e-6;
 
 /// Distance along the wall, given its normal.
 double Along(const Eigen::Vector2d& normal, const Eigen::Vector2d& offset) {
-  return std::abs(normal.x() * offset.y() - normal.y() * offset.x());
+  return std::abs(Cross(normal, offset));
 }
 
 /// The points that have a normal, in the map.

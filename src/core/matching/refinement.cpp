@@ -72,7 +72,7 @@ ScanTerm SumOverPoints(const std::vector<SurfacePoint>& points, const LocalMap& 
     const Eigen::Vector2d normal = element->normal.cast<double>();
     const Eigen::Vector2d offset = place - element->position.cast<double>();
     const double residual = normal.dot(offset);
-    const double along = normal.x() * offset.y() - normal.y() * offset.x();
+    const double along = Cross(normal, offset);
     if (std::abs(residual) > gate || std::abs(along) > options.along_gate) continue;
     const Eigen::Vector2d n = rotate_back.Rotate(normal);
     const double cosine = -n.dot(p.ray);
@@ -127,7 +127,7 @@ EdgeTerm SumOverEdges(const EdgeEvidence& evidence, const Pose2& map_from_base,
         std::pow(edge.bearing_stddev * edge.range, 2) + across.dot(landmark->covariance * across);
     const double w = CauchyWeight(residual * residual, variance, options.kernel) /
                      (variance * options.edge_correlation);
-    const Eigen::Vector3d jacobian(n.x(), n.y(), p.x() * n.y() - p.y() * n.x());
+    const Eigen::Vector3d jacobian(n.x(), n.y(), Cross(p, n));
     term.equations.information += w * jacobian * jacobian.transpose();
     term.equations.gradient += w * residual * jacobian;
     ++term.matched;

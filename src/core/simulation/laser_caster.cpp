@@ -8,10 +8,6 @@
 namespace scan_image_slam {
 namespace {
 
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 struct BeamRange {
   std::size_t begin;
   std::size_t end;

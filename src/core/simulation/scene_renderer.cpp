@@ -15,10 +15,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// A surface in a strip, with the horizontal distances between which it is seen.
 struct Seen {
   const ViewedWall* wall = nullptr;

@@ -11,10 +11,6 @@ namespace {
 constexpr double kNearest = 0.005;       // nothing is seen nearer than this [m]
 constexpr float kThinnest = 1.0F / 512;  // fraction of a column that is left out
 
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Directions of the plan from which something is seen, as an interval that may exceed +-pi.
 struct BearingRange {
   double low;

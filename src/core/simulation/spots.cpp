@@ -6,9 +6,9 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr double kReach = 4.0;         // of a lamp [m]
-constexpr double kRobotHeight = 0.9;   // [m]
-constexpr double kRobotRadius = 0.22;  // [m]
+constexpr double kReach = 4.0;        // of a lamp [m]
+constexpr double kBodyHeight = 0.9;   // [m]
+constexpr double kBodyRadius = 0.22;  // [m]
 
 /// A point in the frame of a wall: along its face, and away from it.
 struct WallPoint {
@@ -39,8 +39,8 @@ Spot Shadow(const WallPoint& robot, const WallPoint& lamp, double lamp_height, d
   const double f = lamp.away / (lamp.away - robot.away);  // from the lamp, over the robot, beyond
   Spot spot;
   spot.along = lamp.along + f * (robot.along - lamp.along);
-  spot.sigma_along = 0.7 * kRobotRadius * f;
-  const double top = lamp_height - f * (lamp_height - kRobotHeight);
+  spot.sigma_along = 0.7 * kBodyRadius * f;
+  const double top = lamp_height - f * (lamp_height - kBodyHeight);
   spot.sigma_height = 0.6 * std::max(top, 0.0);
   spot.strength = top > 0.0 ? strength : 0.0;
   spot.bright = false;

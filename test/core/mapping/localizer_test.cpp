@@ -166,7 +166,7 @@ TEST(Localizer, TellsThatARobotSeesThroughTheWallsOfTheMap) {
   const LocalizerOptions options;
   Localizer localizer(MapOfAngledRoom(), options);
   Room larger = AngledRoom();
-  for (Wall& wall : larger) wall = {2.5 * wall.from, 2.5 * wall.to};
+  for (RoomWall& wall : larger) wall = {2.5 * wall.from, 2.5 * wall.to};
   Robot robot(larger, 30.0);
   std::optional<Location> told;
   for (int i = 0; i < options.max_misses; ++i) {

@@ -67,7 +67,7 @@ TEST(SlamPipeline, AddsTheWallsOfTheRoomToTheMap) {
       if (grid.Occupancy(x, y) < 65) continue;
       const Eigen::Vector2d p = room_from_map * Eigen::Vector2d(0.05 * (x + 0.5), 0.05 * (y + 0.5));
       double nearest = 1e9;
-      for (const Wall& wall : drive.room) {
+      for (const RoomWall& wall : drive.room) {
         const Eigen::Vector2d way = wall.to - wall.from;
         const double along = std::clamp((p - wall.from).dot(way) / way.squaredNorm(), 0.0, 1.0);
         nearest = std::min(nearest, (wall.from + along * way - p).norm());

@@ -8,6 +8,8 @@
 
 namespace scan_image_slam {
 
+constexpr double kEdgeStddev = 0.4;  ///< of the column of an edge [px]
+
 /// A straight, nearly vertical edge of a bearing image: a line through columns and rows.
 struct UprightEdge {
   double column = 0.0;       ///< at `row` [px]

@@ -15,6 +15,11 @@ double NormalizeAngle(double angle);
 /// The unit vector at an angle.
 inline Eigen::Vector2d Direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
+/// The area that two vectors span, positive if the second lies to the left of the first.
+inline double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 /// The same vector turned by a quarter to the left.
 inline Eigen::Vector2d Across(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 

@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+"""What goes wrong while a robot drives: inputs stop and come back, nodes die, the machine is busy.
+
+After each fault the pose is again that of the robot, counted from the same beginning."""
+
+import math
+import os
+import signal
+import time
+import unittest
+from xmlrpc.client import ServerProxy
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
+from live_support import Console, Recorder, compose, inverse, wait_for, yaw_of
+from nav_msgs.msg import Odometry
+from scan_image_slam.msg import IcpModel, ScanMatch
+from sensor_msgs.msg import CameraInfo, Image, LaserScan
+
+TOPICS = {'scan': LaserScan, 'odom': Odometry, 'image_raw': Image, 'camera_info': CameraInfo}
+MAX_ERROR = 0.05  # [m]
+SILENCE = 2.5     # after which an input is missed [s]
+
+
+class Relay:
+    """A driver that can be stopped and started again: hands a topic of the robot on."""
+
+    def __init__(self, topic, message_type):
+        self._topic, self._type = topic, message_type
+        self.start()
+        rospy.Subscriber('robot/' + topic, message_type, self._hand_on, queue_size=10)
+
+    def start(self):
+        self._publisher = rospy.Publisher(self._topic, self._type, queue_size=10)
+
+    def stop(self):
+        publisher, self._publisher = self._publisher, None
+        publisher.unregister()
+
+    def _hand_on(self, message):
+        publisher = self._publisher
+        if publisher:
+            try:
+                publisher.publish(message)
+            except rospy.ROSException:  # stopped meanwhile
+                pass
+
+
+def place_of(pose):
+    return (pose.position.x, pose.position.y, yaw_of(pose.orientation))
+
+
+class RunFaultsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('run_faults_test')
+        cls.console = Console()
+        cls.diagnostics = Recorder('/diagnostics', DiagnosticArray)
+        cls.truths = Recorder('ground_truth', PoseStamped,
+                              key=lambda m: (m.header.stamp, place_of(m.pose)))
+        cls.poses = Recorder('pose', PoseWithCovarianceStamped,
+                             key=lambda m: (m.header.stamp, place_of(m.pose.pose)))
+        cls.models = Recorder('icp_model', IcpModel, key=lambda m: m.has_image)
+        cls.modes = Recorder('scan_match', ScanMatch, key=lambda m: m.mode)
+        cls.truths.wait_connected()
+        cls.relays = {topic: Relay(topic, kind) for topic, kind in TOPICS.items()}
+        cls.first = wait_for(lambda: next(iter(cls.errors(cls.poses.messages)), None), 'a pose')
+
+    @classmethod
+    def errors(cls, poses, begin=None):
+        """(stamp, pose, true pose, error [m]) of the poses whose true place is known, counted from
+        the pose `begin`."""
+        truths = dict(cls.truths.messages)
+        for stamp, pose in poses:
+            if stamp not in truths:
+                continue
+            if begin is None:
+                yield stamp, pose, truths[stamp]
+                continue
+            moved = compose(inverse(begin[1]), pose)
+            true = compose(inverse(begin[2]), truths[stamp])
+            yield stamp, math.hypot(moved[0] - true[0], moved[1] - true[1])
+
+    def expect_right_again(self, what):
+        """New poses come, and the robot is where they say."""
+        before = len(self.poses.messages)
+        wait_for(lambda: len(self.poses.messages) > before + 20, 'poses after ' + what)
+        stamp, error = wait_for(
+            lambda: (list(self.errors(self.poses.messages[before:], self.first)) or [None])[-1],
+            'truth')
+        print(f'{what}: off by {1e3 * error:.1f} mm')
+        self.assertLess(error, MAX_ERROR, what)
+
+    def pid(self, node):
+        uri = rospy.get_master().lookupNode(node)[2]
+        return ServerProxy(uri).getPid('/test')[2]
+
+    def stop_and_start(self, topic):
+        heard = len(self.console.messages)
+        self.relays[topic].stop()
+        time.sleep(SILENCE)
+        self.console.said('/' + topic, node='/scan_image_fusion', after=heard)
+        self.relays[topic].start()
+        self.expect_right_again(topic + ' back')
+
+    def test_scans_stop_and_come_back(self):
+        self.stop_and_start('scan')
+
+    def test_encoders_stop_and_come_back(self):
+        self.stop_and_start('odom')
+        count = len(self.modes.messages)
+        wait_for(lambda: ScanMatch.MODE_FULL in self.modes.messages[count:], 'encoders to be used')
+
+    def test_camera_stops_and_comes_back(self):
+        for topic in ('image_raw', 'camera_info'):
+            self.stop_and_start(topic)
+            count = len(self.models.messages)
+            wait_for(lambda: any(self.models.messages[count:]), 'images to be fused')
+
+    def expect_another_process(self, node):
+        old = self.pid(node)
+        os.kill(old, signal.SIGKILL)
+
+        def is_new():
+            try:
+                return self.pid(node) != old
+            except OSError:
+                return False
+        wait_for(is_new, node + ' to be started again')
+        self.expect_right_again(node + ' killed')
+
+    def test_fusion_is_killed(self):
+        self.expect_another_process('/scan_image_fusion')
+
+    def test_matching_is_killed(self):
+        self.expect_another_process('/bounded_icp')
+
+    def left_out(self):
+        """By bounded_icp, as its diagnostics tell: messages, and whether they warn."""
+        for array in reversed(self.diagnostics.messages):
+            for status in array.status:
+                if status.name.startswith('bounded_icp'):
+                    values = {v.key: v.value for v in status.values}
+                    return (int(values['/icp_model left out']),
+                            status.level == DiagnosticStatus.WARN and 'left out' in status.message)
+        return (0, False)
+
+    def test_too_little_time(self):
+        """A node that has its processor for 10 of 310 ms leaves out what it can't do, and says so."""
+        pid = self.pid('/bounded_icp')
+        before = self.left_out()[0]
+        end = time.monotonic() + 6.0
+        while time.monotonic() < end:
+            os.kill(pid, signal.SIGSTOP)
+            time.sleep(0.3)
+            os.kill(pid, signal.SIGCONT)
+            time.sleep(0.01)
+        count, _ = wait_for(lambda: self.left_out()[1] and self.left_out(), 'a warning')
+        self.assertGreater(count, before)
+        self.expect_right_again('a busy machine')
+        # It is up to date again.
+        newest = self.poses.messages[-1][0]
+        self.assertLess((rospy.Time.now() - newest).to_sec(), 1.0)
+        wait_for(lambda: not self.left_out()[1], 'the warning to end')
+
+
+if __name__ == '__main__':
+    rostest.rosrun('scan_image_slam', 'run_faults', RunFaultsTest)
