@@ -71,6 +71,8 @@ clang_options=(-DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_COMPILER_LAUNCHER=
   -DSCAN_IMAGE_SLAM_PRECOMPILE=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo
   -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -gline-tables-only")
 
+asan_options=verify_asan_link_order=0  # it stands behind our libraries, which allocate nothing themselves
+
 # With what the fuzzer needs, so that the fuzz programs take the same libraries.
 build_sanitized() {  # TARGETS...
   BUILD_TARGETS=$* "$here/build.sh" "$sanitized" -DSCAN_IMAGE_SLAM_FUZZ=ON "${clang_options[@]}"
@@ -82,7 +84,7 @@ run_sanitize() {
   build_sanitized "${live_programs[@]}" scan_image_slam_nodelets ros_messages_test \
     $(cd "$repository/test/core" && printf 'core_%s_test ' *)
   # Libraries of ROS leak what lives as long as the program.
-  export ASAN_OPTIONS=detect_leaks=0:detect_stack_use_after_return=1
+  export ASAN_OPTIONS=$asan_options:detect_leaks=0:detect_stack_use_after_return=1
   run_ctest "$sanitized" -j "$jobs" -R '_gtest_(core_|ros_messages)'
   # The live graph, bags at half their speed. The manager of nodelets is a program of ROS, so the
   # sanitizer is loaded before.
@@ -105,6 +107,7 @@ run_threads() {
 # A few seconds each; what they find is kept in $found, and belongs into test/fuzz/corpus.
 run_fuzz() {
   build_sanitized fuzz_programs
+  export ASAN_OPTIONS=$asan_options
   local found=$sanitized/found source name seeds
   for source in "$repository"/test/fuzz/*_fuzz.cpp; do
     name=$(basename "$source" .cpp)
