@@ -155,8 +155,9 @@ class MeasureLatencyTest(unittest.TestCase):
             self.assertGreater(os.path.getsize(os.path.join(self.folder, picture)), 5000)
 
     def test_long_run_by_one_command(self):
-        process = self.run_in_group(program('soak.py'), '--simulate', 'laboratory', '--duration',
-                                    '5', '--period', '1', '--out', self.folder)
+        process = self.run_in_group(
+            program('soak.py'), '--simulate', 'laboratory', '--duration', '5', '--period', '1',
+            '--out', self.folder, '--programs', os.path.dirname(program('measure_latency')))
         output, _ = process.communicate(timeout=120)
         self.assertEqual(process.returncode, 0, self.said())
         self.assertIn(os.path.join(self.folder, 'report.md'), output)
