@@ -9,10 +9,10 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from live_support import (Recorder, angle_difference, cast, compose, make_odometry,
-                          make_scan, publisher, room_scan, static_transforms, transform, wait_for,
-                          wait_subscribed, yaw_of)
+from live_support import (Recorder, cast, make_odometry, make_scan, publisher, room_scan,
+                          static_transforms, transform, wait_for, wait_subscribed)
 from nav_msgs.msg import Odometry
+from pose_support import angle_difference, compose, yaw_of
 from scan_image_slam.msg import ScanMatch
 from sensor_msgs.msg import LaserScan
 

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Bags whose time does not run evenly: a pause, a leap of the clock, transforms that come late."""
 
-import math
 import os
 import tempfile
 import time
@@ -11,7 +10,8 @@ import rosbag
 import rospy
 import rostest
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from live_support import (Player, Recorder, compose, inverse, read_tum, simulate, wait_for, yaw_of)
+from live_support import Player, Recorder, read_tum, simulate, wait_for
+from pose_support import off_by, pose_of
 from std_srvs.srv import SetBool
 
 READERS = (('/scan_image_fusion', '/scan'), ('/scan_image_fusion', '/tf'),
@@ -58,12 +58,8 @@ class BagTimesTest(unittest.TestCase):
             new = self.poses.messages[before:]
             return new and new[-1].header.stamp.to_nsec() == self.scans[-1]
         wait_for(ended, 'the last pose')
-        found = {}
-        for message in self.poses.messages[before:]:
-            position = message.pose.pose.position
-            found[message.header.stamp.to_nsec()] = (position.x, position.y,
-                                                     yaw_of(message.pose.pose.orientation))
-        return found
+        return {m.header.stamp.to_nsec(): pose_of(m.pose.pose)
+                for m in self.poses.messages[before:]}
 
     @staticmethod
     def readers(bag):
@@ -80,10 +76,8 @@ class BagTimesTest(unittest.TestCase):
     def expect_true(self, poses, within):
         first = min(poses)
         for stamp, pose in poses.items():
-            moved = compose(inverse(poses[first]), pose)
-            true = compose(inverse(self.truth[first]), self.truth[stamp])
-            self.assertLess(math.hypot(moved[0] - true[0], moved[1] - true[1]), within,
-                            f'{(stamp - first) / 1e9:.3f} s after the first')
+            error = off_by((self.truth[first], poses[first]), (self.truth[stamp], pose))
+            self.assertLess(error, within, f'{(stamp - first) / 1e9:.3f} s after the first')
 
     def test_pause(self):
         pause = rospy.ServiceProxy('/player/pause_playback', SetBool)

@@ -7,9 +7,10 @@ import unittest
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
-from live_support import (START, Console, Recorder, angle_difference, compose, make_model,
-                          make_odometry, publisher, wait_subscribed)
+from live_support import (START, Console, Recorder, make_model, make_odometry, publisher,
+                          wait_subscribed)
 from nav_msgs.msg import Odometry
+from pose_support import angle_difference, compose
 from scan_image_slam.msg import IcpModel, ScanMatch
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray

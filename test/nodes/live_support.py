@@ -208,14 +208,6 @@ def static_transforms(*transforms):
     return static
 
 
-def yaw_of(orientation):
-    return 2.0 * math.atan2(orientation.z, orientation.w)
-
-
-def angle_difference(a, b):
-    return (a - b + math.pi) % (2 * math.pi) - math.pi
-
-
 def program(name):
     """Path of one of the package's programs."""
     import roslib.packages
@@ -290,17 +282,6 @@ def make_model(seconds, pose=(0.0, 0.0, 0.0), beams=360):
     model.edge_weights = [0.0] * beams
     model.edge_signs = [0] * beams
     return model
-
-
-def compose(a, b):
-    """Of poses (x, y, yaw): b, told in the frame a, in the frame that a is told in."""
-    c, s = math.cos(a[2]), math.sin(a[2])
-    return (a[0] + c * b[0] - s * b[1], a[1] + s * b[0] + c * b[1], a[2] + b[2])
-
-
-def inverse(pose):
-    c, s = math.cos(pose[2]), math.sin(pose[2])
-    return (-c * pose[0] - s * pose[1], s * pose[0] - c * pose[1], -pose[2])
 
 
 class Player:

@@ -13,11 +13,12 @@ import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Pose2D, PoseWithCovarianceStamped
-from live_support import (START, WALLS, Console, Recorder, angle_difference, compose, inverse,
-                          make_model, publisher, stamp_of, wait_for, wait_subscribed, yaw_of, yaw_quaternion)
+from live_support import (START, WALLS, Console, Recorder, make_model, publisher, stamp_of,
+                          wait_for, wait_subscribed, yaw_quaternion)
 from map_msgs.msg import OccupancyGridUpdate
 from nav_msgs.msg import MapMetaData, OccupancyGrid, Path
 from nav_msgs.srv import GetMap
+from pose_support import angle_difference, compose, inverse, yaw_of
 from scan_image_slam.msg import IcpModel, ScanMatch
 from scan_image_slam.srv import SaveMap
 from std_msgs.msg import String

@@ -16,10 +16,10 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from live_support import (Console, Recorder, angle_difference, compose, program, wait_for, yaw_of,
-                          yaw_quaternion)
+from live_support import Console, Recorder, program, wait_for, yaw_quaternion
 from mapper_support import FIRST, PERIOD, Robot
 from nav_msgs.srv import GetMap
+from pose_support import angle_difference, compose, yaw_of
 from scan_image_slam.srv import SaveMap, StateFile
 from std_srvs.srv import Trigger
 

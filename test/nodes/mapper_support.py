@@ -4,7 +4,8 @@ import math
 
 import numpy
 from geometry_msgs.msg import Pose2D, PoseWithCovarianceStamped
-from live_support import START, Recorder, compose, inverse, publisher, stamp_of, wait_for
+from live_support import START, Recorder, publisher, stamp_of, wait_for
+from pose_support import compose, inverse
 from scan_image_slam.msg import IcpModel, ScanMatch
 
 PERIOD = 0.1  # [s]

@@ -8,8 +8,9 @@ import numpy
 import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped, Twist
-from live_support import (Recorder, angle_difference, publisher, wait_for, wait_subscribed, yaw_of)
+from live_support import Recorder, publisher, wait_for, wait_subscribed
 from nav_msgs.msg import Odometry
+from pose_support import angle_difference, yaw_of
 from sensor_msgs.msg import CameraInfo, Image, LaserScan
 from tf2_msgs.msg import TFMessage
 

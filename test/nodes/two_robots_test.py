@@ -12,18 +12,15 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
-from live_support import Console, Recorder, angle_difference, compose, inverse, wait_for, yaw_of
+from live_support import Console, Recorder, wait_for
 from nav_msgs.srv import GetMap
+from pose_support import angle_difference, compared, compose, inverse
 from scan_image_slam.srv import StateFile
 from tf2_msgs.msg import TFMessage
 
 ROBOTS = ('/robot_1', '/robot_2')
 FOR_ALL = {'/tf', '/tf_static', '/diagnostics', '/rosout'}
 LENGTH, WIDTH = 11.4, 10.0  # of the laboratory, from the origin of its world [m]
-
-
-def pose_of(message):
-    return (message.position.x, message.position.y, yaw_of(message.orientation))
 
 
 def known(robot):
@@ -50,10 +47,7 @@ class Robot:
         self.get_map = rospy.ServiceProxy(space + '/dynamic_map', GetMap)
 
     def compared(self):
-        """[(true pose in the world, pose in the map)] of the same moments."""
-        truths = {m.header.stamp: pose_of(m.pose) for m in self.truths.messages}
-        return [(truths[m.header.stamp], pose_of(m.pose.pose)) for m in self.poses.messages
-                if m.header.stamp in truths]
+        return compared(self.truths.messages, self.poses.messages)
 
     def way(self):
         points = numpy.array([truth[:2] for truth, _ in self.compared()]).reshape(-1, 2)
@@ -161,9 +155,7 @@ class TwoRobotsTest(unittest.TestCase):
             """Poses that are told in the new map: of scans since then."""
             return [m for m in taker.poses.messages if m.header.stamp > found.header.stamp]
         wait_for(lambda: len(later()) > 80, 'poses in the other map')
-        truths = {m.header.stamp: pose_of(m.pose) for m in taker.truths.messages}
-        self.expect_followed([(truths[m.header.stamp], pose_of(m.pose.pose)) for m in later()
-                              if m.header.stamp in truths], map_from_world)
+        self.expect_followed(compared(taker.truths.messages, later()), map_from_world)
         self.expect_laboratory(taker, map_from_world)
         self.assertLess(len(before - known(taker)), 0.01 * len(before))
         save = rospy.ServiceProxy(taker.space + '/save_state', StateFile)

@@ -14,9 +14,9 @@ import rosbag
 import rospy
 import rostest
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from live_support import (Player, Recorder, angle_difference, program, read_tum, run, simulate,
-                          wait_for, yaw_of)
+from live_support import Player, Recorder, program, read_tum, run, simulate, wait_for
 from nav_msgs.msg import OccupancyGrid, Path
+from pose_support import angle_difference, yaw_of
 from rosgraph_msgs.msg import Clock
 from scan_image_slam.msg import ScanMatch
 from tf2_msgs.msg import TFMessage

@@ -85,10 +85,15 @@ MotionPrediction MotionPredictor::Predict(Stamp stamp) const {
   const double dt = Seconds(stamp - *last_stamp_);
   prediction.dt = std::max(dt, period_);  // stamps may jitter
   const std::optional<Pose2> continuous_from_base = odometry_.ContinuousPose(stamp);
+  // Encoders that had not reached the last scan may have done so by now.
+  const std::optional<Pose2> last_continuous_from_base =
+      !last_continuous_from_base_ && odometry_.Surrounds(*last_stamp_)
+          ? odometry_.ContinuousPose(*last_stamp_)
+          : last_continuous_from_base_;
   MotionBounds bounds = options_.bounds;
-  if (continuous_from_base && last_continuous_from_base_) {
+  if (continuous_from_base && last_continuous_from_base) {
     prediction.from_encoders = true;
-    prediction.motion = last_continuous_from_base_->Inverse() * *continuous_from_base;
+    prediction.motion = last_continuous_from_base->Inverse() * *continuous_from_base;
   } else {
     prediction.motion = Move(velocity_, std::min(dt, bounds.max_time));
     bounds.lateral_per_distance = options_.lateral_per_distance_without_encoders;

@@ -74,6 +74,17 @@ OdometryBuffer::Result OdometryBuffer::AddStale(Stamp stamp, const Pose2& odom_f
   return Result::kReset;
 }
 
+std::deque<OdometryBuffer::Reading>::const_iterator OdometryBuffer::After(Stamp stamp) const {
+  return std::upper_bound(readings_.begin(), readings_.end(), stamp,
+                          [](Stamp s, const Reading& reading) { return s < reading.stamp; });
+}
+
+bool OdometryBuffer::Surrounds(Stamp stamp) const {
+  const auto after = After(stamp);
+  if (after == readings_.begin() || after == readings_.end()) return false;
+  return Seconds(after->stamp - (after - 1)->stamp) <= options_.max_extrapolation;
+}
+
 std::optional<Pose2> OdometryBuffer::ContinuousPose(Stamp stamp) const {
   if (readings_.empty()) return std::nullopt;
   if (stamp < readings_.front().stamp) {
@@ -87,9 +98,7 @@ std::optional<Pose2> OdometryBuffer::ContinuousPose(Stamp stamp) const {
     if (ahead > options_.max_extrapolation) return std::nullopt;
     return newest.continuous_from_base * Move(NewestVelocity(), ahead);
   }
-  const auto after =
-      std::upper_bound(readings_.begin(), readings_.end(), stamp,
-                       [](Stamp s, const Reading& reading) { return s < reading.stamp; });
+  const auto after = After(stamp);
   const auto before = after - 1;
   return Interpolate(before->continuous_from_base, after->continuous_from_base,
                      Seconds(stamp - before->stamp) / Seconds(after->stamp - before->stamp));

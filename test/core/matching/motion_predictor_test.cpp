@@ -167,6 +167,25 @@ TEST(MotionPredictor, UsesEncodersThatComeBackFromTheSecondScanOn) {
   ExpectMotion(second.motion, {0.02, 0.0, 0.0});
 }
 
+// Of a node that had too much to do to hear them.
+TEST(MotionPredictor, UsesEncodersThatWereHeardAfterTheScanTheyReach) {
+  MotionPredictor predictor = WithoutEncoders();
+  for (int i = 0; i <= 22; ++i) {  // from 1.0 s on, at 0.3 m/s
+    predictor.odometry().Add(FromSeconds(1.0 + 0.1 * i), {5.0 + 0.03 * i, 0.0, 0.0});
+  }
+  const MotionPrediction prediction = predictor.Predict(FromSeconds(3.15));
+  EXPECT_TRUE(prediction.from_encoders);
+  EXPECT_NEAR(prediction.motion.x, 0.615, 1e-9);
+}
+
+TEST(MotionPredictor, TakesNothingFromEncodersThatPausedAroundTheLastScan) {
+  MotionPredictor predictor(DecimalOptions());
+  predictor.odometry().Add(FromSeconds(0.5), {5.0, 0.0, 0.0});
+  predictor.Update(FromSeconds(1.0), Pose2());
+  predictor.odometry().Add(FromSeconds(2.0), {5.6, 0.0, 0.0});
+  EXPECT_FALSE(predictor.Predict(FromSeconds(2.0)).from_encoders);
+}
+
 TEST(MotionPredictor, TakesTheUsualPeriodForStampsThatJitter) {
   MotionPredictor predictor = WithoutEncoders();
   const MotionPrediction early = predictor.Predict(FromSeconds(1.11));

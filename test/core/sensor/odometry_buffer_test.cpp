@@ -78,6 +78,17 @@ TEST(OdometryBuffer, InterpolatesBetweenTheRightReadings) {
   ExpectPoseAt(buffer, 0.25, {0.1, 0.0, 0.3});
 }
 
+TEST(OdometryBuffer, SurroundsWhatLiesBetweenReadingsWithoutAPause) {
+  OdometryBuffer buffer{OdometryOptions()};
+  EXPECT_FALSE(buffer.Surrounds(At(1.0)));
+  for (const double at : {1.0, 1.2, 2.0}) buffer.Add(At(at), {at, 0.0, 0.0});
+  EXPECT_FALSE(buffer.Surrounds(At(0.9)));
+  EXPECT_TRUE(buffer.Surrounds(At(1.0)));
+  EXPECT_TRUE(buffer.Surrounds(At(1.1)));
+  EXPECT_FALSE(buffer.Surrounds(At(1.3)));
+  EXPECT_FALSE(buffer.Surrounds(At(2.1)));
+}
+
 TEST(OdometryBuffer, GoesOnAtTheLastVelocityBehindTheNewest) {
   OdometryBuffer buffer = Straight(2);
   buffer.Add(At(0.2), {0.3, 0.0, 0.0});  // now 2 m/s

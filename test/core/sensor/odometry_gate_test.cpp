@@ -133,6 +133,38 @@ TEST_F(OdometryGateTest, AReadingThatIsOverdueIsWaitedFor) {
   EXPECT_EQ(PopAt(kNow + 53 * kMs), 1);
 }
 
+// Of a machine with too much to do: the readings are there, too, but have not been looked at yet.
+TEST_F(OdometryGateTest, TimeInWhichNobodyLookedIsNotWaited) {
+  AddReading(&odometry_, kScan - 100 * kMs);
+  gate_.Push(1, kScan, kNow);
+  EXPECT_FALSE(PopAt(kNow));
+  EXPECT_FALSE(PopAt(kNow + 300 * kMs));
+  EXPECT_DOUBLE_EQ(*gate_.TimeLeft(kNow + 300 * kMs), kMaxWait);
+  AddReading(&odometry_, kScan);
+  EXPECT_EQ(PopAt(kNow + 301 * kMs), 1);
+}
+
+TEST_F(OdometryGateTest, AScanDoesNotWaitForeverForLooksThatComeTooLate) {
+  gate_.Push(1, kScan, kNow);
+  for (int look = 1; look <= 3; ++look) EXPECT_FALSE(PopAt(kNow + 300 * look * kMs));
+  EXPECT_EQ(PopAt(kNow + 1200 * kMs), 1);
+}
+
+TEST_F(OdometryGateTest, EncodersAreNotSilentAfterALateLook) {
+  LetOneWaitInVain();
+  gate_.Push(2, kScan + 300 * kMs, kNow + 300 * kMs);
+  EXPECT_FALSE(PopAt(kNow + 300 * kMs));
+  EXPECT_EQ(PopAt(kNow + 320 * kMs), 2);
+}
+
+TEST_F(OdometryGateTest, ThePaceOfTheEncodersIsUnknownAfterALateLook) {
+  ReadEvenly();
+  AddReading(&odometry_, kScan + 29 * kMs);  // the first of those that came in the meantime
+  EXPECT_FALSE(PopAt(kNow + 300 * kMs));
+  gate_.Push(1, kScan + 290 * kMs, kNow + 300 * kMs);
+  EXPECT_FALSE(PopAt(kNow + 300 * kMs));
+}
+
 // As they do in recordings where both have the stamps of one clock.
 TEST_F(OdometryGateTest, AReadingWithTheStampOfTheScanIsWaitedFor) {
   constexpr Stamp kPeriod = 200 * kMs;

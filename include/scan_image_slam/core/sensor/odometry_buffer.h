@@ -37,6 +37,9 @@ class OdometryBuffer {
   /// readings do not reach that time.
   std::optional<Pose2> ContinuousPose(Stamp stamp) const;
 
+  /// True if there are readings before and after `stamp`, with no pause between them.
+  bool Surrounds(Stamp stamp) const;
+
   /// Pose of the base at `stamp` in the frame of the newest readings (`odom`), or nothing.
   std::optional<Pose2> OdomFromBase(Stamp stamp) const;
 
@@ -51,6 +54,8 @@ class OdometryBuffer {
     Stamp stamp;
     Pose2 continuous_from_base;
   };
+  /// The first reading later than `stamp`.
+  std::deque<Reading>::const_iterator After(Stamp stamp) const;
   Result AddStale(Stamp stamp, const Pose2& odom_from_base);
   /// By the last readings, in the frame of the base; zero before the second one.
   Velocity2 NewestVelocity() const;

@@ -12,7 +12,8 @@ namespace scan_image_slam {
 
 /// Holds scans until the encoders have reached their stamp, but not for long, and not at all if the
 /// encoders, which come at an even pace, will not get there in time: scans and encoders come by
-/// different ways, and neither order is wrong. Scans leave in the order in which they came.
+/// different ways, and neither order is wrong. Scans leave in the order in which they came. Time in
+/// which nobody looked does not count: who was kept from looking was kept from the encoders, too.
 template <typename Item>
 class OdometryGate {
  public:
@@ -24,20 +25,22 @@ class OdometryGate {
 
   /// `now` is any clock that goes on while messages arrive, e.g. the time of arrival [ns].
   void Push(Item item, Stamp stamp, Stamp now) {
-    waiting_.push_back({std::move(item), stamp, now});
+    NoticeLateLook(now);
+    waiting_.push_back({std::move(item), stamp, now, now});
     while (waiting_.size() > max_items_) {
       waiting_.pop_front();
       ++dropped_;
     }
   }
 
-  /// The next scan that need not wait any longer, if there is one. To be called for each scan and
-  /// for each reading of the encoders.
+  /// The next scan that need not wait any longer, if there is one. To be called for each scan, for
+  /// each reading of the encoders, and when TimeLeft() is over.
   std::optional<Item> Pop(Stamp now, const OdometryBuffer& odometry) {
+    NoticeLateLook(now);
     if (!odometry.empty()) pace_.Watch(odometry.newest_stamp(), now);
     if (waiting_.empty()) return std::nullopt;
     const bool reached = !odometry.empty() && odometry.newest_stamp() >= waiting_.front().stamp;
-    const bool waited = Seconds(now - waiting_.front().arrival) >= max_wait_;
+    const bool waited = Seconds(now - waiting_.front().begin) >= max_wait_;
     // Encoders that have let the last scan wait in vain, and have said nothing since, are silent.
     const bool silent = silent_since_ && *silent_since_ == odometry.newest_stamp();
     const std::optional<Stamp> due = pace_.Due(waiting_.front().stamp);
@@ -56,7 +59,7 @@ class OdometryGate {
   /// How long the next scan may still wait, if there is one, above 0 unless Pop() was left out [s].
   std::optional<double> TimeLeft(Stamp now) const {
     if (waiting_.empty()) return std::nullopt;
-    return max_wait_ - Seconds(now - waiting_.front().arrival);
+    return max_wait_ - Seconds(now - waiting_.front().begin);
   }
 
   std::size_t size() const { return waiting_.size(); }
@@ -71,11 +74,29 @@ class OdometryGate {
     Item item;
     Stamp stamp;
     Stamp arrival;
+    Stamp begin;  ///< of the wait
   };
+
+  /// After a long time without a look nothing is known of the encoders' pace or silence, and scans
+  /// begin to wait anew, if they are not too old by now.
+  void NoticeLateLook(Stamp now) {
+    constexpr double kLate = 0.05;   // [s]
+    constexpr double kTooOld = 1.0;  // [s]
+    const bool late = Seconds(now - looked_) > max_wait_ + kLate;
+    looked_ = now;
+    if (!late) return;
+    pace_ = ReadingPace();
+    silent_since_.reset();
+    for (Waiting& scan : waiting_) {
+      if (Seconds(now - scan.arrival) < kTooOld) scan.begin = now;
+    }
+  }
+
   double max_wait_;
   std::size_t max_items_;
   ReadingPace pace_;
   std::deque<Waiting> waiting_;
+  Stamp looked_ = 0;
   std::optional<Stamp> silent_since_;
   int dropped_ = 0;
 };
