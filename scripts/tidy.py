@@ -41,8 +41,7 @@ def main():
             path = os.path.join(out, unit)
             with open(path, "w") as file:
                 file.writelines('#include "%s"\n' % source for source in sorted(set(sources)))
-        own = "-I" + os.path.dirname(sources[0])  # for headers beside the sources
-        command = entry["command"].replace(entry["file"], path).replace(" -c ", " %s -c " % own)
+        command = entry["command"].replace(entry["file"], path)
         database.append({"directory": entry["directory"], "file": path, "command": command})
     with open(os.path.join(out, "compile_commands.json"), "w") as file:
         json.dump(database, file)

@@ -100,6 +100,7 @@ void BoundedIcpNode::StartOver(const char* reason) {
   ROS_WARN_STREAM(reason << ": starting over");
   bounded_icp_.Reset();
   gate_.Clear();
+  odd_since_.reset();
 }
 
 void BoundedIcpNode::OnModel(const ros::MessageEvent<const IcpModel>& event) {
@@ -152,7 +153,7 @@ void BoundedIcpNode::CheckMatching() {
   constexpr double kPatience = 1.0;  // [s]
   const MatchStatus status = last_match_.status;
   const bool odd = status == MatchStatus::kOnWindowEdge || status == MatchStatus::kTooFewPoints;
-  if (!odd || last_match_.stamp < odd_since_.value_or(last_match_.stamp)) odd_since_.reset();
+  if (!odd) odd_since_.reset();
   if (odd && !odd_since_) odd_since_ = last_match_.stamp;
   const bool lasts = odd && Seconds(last_match_.stamp - *odd_since_) > kPatience;
   const char* advice = status == MatchStatus::kTooFewPoints

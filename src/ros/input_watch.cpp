@@ -102,9 +102,13 @@ void InputWatch::AddValue(const std::string& key, std::function<std::string()> v
   values_[key] = std::move(value);
 }
 
-std::string InputWatch::DescribeTopic(const std::string& name, const Topic& topic) const {
+std::string InputWatch::Heading(const std::string& name, const Topic& topic) {
+  return "topic " + name + " (" + topic.type + "): ";
+}
+
+std::string InputWatch::DescribeTopic(const std::string& name, const Topic& topic) {
   const std::uint32_t publishers = topic.publishers();
-  const std::string what = "topic " + name + " (" + topic.type + "): ";
+  const std::string what = Heading(name, topic);
   if (topic.messages == 0) {
     return what + (publishers == 0 ? "nobody publishes it; check the name, or remap it"
                                    : "it has a publisher, but no message has come");
@@ -116,14 +120,14 @@ std::string InputWatch::DescribeTopic(const std::string& name, const Topic& topi
 std::string InputWatch::DescribeCrowd(const std::string& name, const Topic& topic) {
   const std::uint32_t publishers = topic.publishers();
   if (publishers < 2) return "";
-  return "topic " + name + " (" + topic.type + "): " + std::to_string(publishers) +
+  return Heading(name, topic) + std::to_string(publishers) +
          " nodes publish it, and only one can be right; rostopic info " + name + " names them";
 }
 
 /// Messages that were lost, or left out, not long ago.
 std::string InputWatch::DescribeLoss(const std::string& name, const Topic& topic) {
   const ros::WallTime lately = ros::WallTime::now() - ros::WallDuration(kTellPeriod);
-  const std::string what = "topic " + name + " (" + topic.type + "): ";
+  const std::string what = Heading(name, topic);
   if (topic.left_out > 0 && topic.last_left_out > lately) {
     return what + std::to_string(topic.left_out) +
            " messages were left out, as newer ones were waiting: the machine is too slow for them; "
@@ -137,27 +141,33 @@ std::string InputWatch::DescribeLoss(const std::string& name, const Topic& topic
   return "";
 }
 
+/// `offset` > 0: the stamps are older than those of the topic `main` [s].
+std::string InputWatch::DescribeClock(double offset, const std::string& main) {
+  return "its messages come with stamps that are " + NumberText(std::abs(offset), 2) +
+         (offset > 0.0 ? " s older" : " s newer") + " than those of " + main +
+         ": the clocks of their machines differ (chrony mends that), or they are held up on their "
+         "way";
+}
+
 /// Whether the stamps of all topics are of one clock, by those that came since the last look.
 void InputWatch::CompareClocks() {
   constexpr int kSure = 2;  // looks; one may fall on a moment at which the clock was set
   const auto main = std::find_if(topics_.begin(), topics_.end(),
                                  [](const auto& entry) { return !entry.second.optional; });
+  if (main == topics_.end()) return;
+  const std::optional<double> main_delay = main->second.delay;
   for (auto& [name, topic] : topics_) {
-    if (main == topics_.end() || !topic.delay || !main->second.delay) continue;
-    const double offset = *topic.delay - *main->second.delay;  // > 0: the topic is behind
-    topic.odd_clock = std::abs(offset) > kMaxClockOffset ? topic.odd_clock + 1 : 0;
-    const bool odd = topic.odd_clock >= kSure;
-    if (odd || topic.odd_clock == 0) {
-      SetProblem("clock of " + name,
-                 odd ? "its messages come with stamps that are " + NumberText(std::abs(offset), 2) +
-                           (offset > 0.0 ? " s older" : " s newer") + " than those of " +
-                           main->first +
-                           ": the clocks of their machines differ (chrony mends that), or they "
-                           "are held up on their way"
-                     : "");
+    const std::optional<double> delay = std::exchange(topic.delay, std::nullopt);
+    if (!delay || !main_delay) continue;
+    const std::string key = "clock of " + name;
+    const double offset = *delay - *main_delay;
+    if (std::abs(offset) <= kMaxClockOffset) {
+      topic.odd_clock = 0;
+      SetProblem(key, "");
+    } else if (++topic.odd_clock >= kSure) {
+      SetProblem(key, DescribeClock(offset, main->first));
     }
   }
-  for (auto& [name, topic] : topics_) topic.delay.reset();
 }
 
 void InputWatch::Tell(const ros::WallTimerEvent& event) {

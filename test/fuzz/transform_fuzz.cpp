@@ -4,7 +4,6 @@
 #include "scan_image_slam/ros/sensor_frames.h"
 
 #include <array>
-#include <stdexcept>
 
 #include <geometry_msgs/TransformStamped.h>
 #include <tf2/exceptions.h>

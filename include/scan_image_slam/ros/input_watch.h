@@ -67,9 +67,11 @@ class InputWatch {
     int odd_clock = 0;            ///< diagnoses in a row that saw another clock than the scans'
   };
   void Tell(const ros::WallTimerEvent&);
-  std::string DescribeTopic(const std::string& name, const Topic& topic) const;
+  static std::string Heading(const std::string& name, const Topic& topic);
+  static std::string DescribeTopic(const std::string& name, const Topic& topic);
   static std::string DescribeCrowd(const std::string& name, const Topic& topic);
   static std::string DescribeLoss(const std::string& name, const Topic& topic);
+  static std::string DescribeClock(double offset, const std::string& main);
   void CompareClocks();
   void Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
