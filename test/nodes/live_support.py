@@ -77,13 +77,17 @@ class Console(Recorder):
     def __init__(self):
         super().__init__('/rosout', Log)
 
+    def found(self, *words, node=None, after=0):
+        """Messages that hold all words; only those from index `after` on count."""
+        return [m for m in self.messages[after:]
+                if all(w in m.msg for w in words) and (node is None or m.name == node)]
+
     def said(self, *words, node=None, count=1, after=0):
-        """Waits until `count` messages hold all words; only those from index `after` on count."""
-        def matching():
-            found = [m for m in self.messages[after:]
-                     if all(w in m.msg for w in words) and (node is None or m.name == node)]
-            return found if len(found) >= count else None
-        return wait_for(matching, lambda: f'{count} x {words} on the console; it says ' +
+        """Waits until `count` messages are found."""
+        def enough():
+            messages = self.found(*words, node=node, after=after)
+            return messages if len(messages) >= count else None
+        return wait_for(enough, lambda: f'{count} x {words} on the console; it says ' +
                         str([m.msg for m in self.messages[after:]][-20:]))
 
 

@@ -165,6 +165,16 @@ TEST_F(OdometryGateTest, ThePaceOfTheEncodersIsUnknownAfterALateLook) {
   EXPECT_FALSE(PopAt(kNow + 300 * kMs));
 }
 
+TEST_F(OdometryGateTest, EncodersThatAreSlowAreNotLate) {
+  constexpr Stamp kPeriod = 150 * kMs;
+  for (int i = -8; i <= 0; ++i) {
+    AddReading(&odometry_, kScan + i * kPeriod);
+    EXPECT_FALSE(PopAt(kNow + i * kPeriod));
+  }
+  gate_.Push(1, kScan + 100 * kMs, kNow + 100 * kMs);  // the next one comes 50 ms later
+  EXPECT_EQ(PopAt(kNow + 100 * kMs), 1);
+}
+
 // As they do in recordings where both have the stamps of one clock.
 TEST_F(OdometryGateTest, AReadingWithTheStampOfTheScanIsWaitedFor) {
   constexpr Stamp kPeriod = 200 * kMs;

@@ -80,7 +80,7 @@ class OdometryGate {
   /// After a long time without a look nothing is known of the encoders' pace or silence, and scans
   /// begin to wait anew, if they are not too old by now.
   void NoticeLateLook(Stamp now) {
-    constexpr double kLate = 0.05;   // [s]
+    constexpr double kLate = 0.2;    // slow encoders and lasers take nearly as long [s]
     constexpr double kTooOld = 1.0;  // [s]
     const bool late = Seconds(now - looked_) > max_wait_ + kLate;
     looked_ = now;
