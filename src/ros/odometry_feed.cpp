@@ -10,9 +10,9 @@
 namespace scan_image_slam {
 namespace {
 
-constexpr double kPollPeriod = 0.01;          // of the transform [s]
-constexpr double kTopicSilence = 1.0;         // after which TF is looked at [s]
-constexpr std::uint32_t kReadingQueue = 100;  // readings are small and none should be lost
+constexpr double kPollPeriod = 0.01;           // of the transform [s]
+constexpr double kTopicSilence = 1.0;          // after which TF is looked at [s]
+constexpr std::uint32_t kReadingQueue = 1000;  // small; a late node shall hear of all its gap
 
 }  // namespace
 

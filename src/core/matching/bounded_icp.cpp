@@ -48,6 +48,7 @@ MatchedMotion BoundedIcp::Match(const FusedModel& model) {
   match.stamp = model.stamp;
   match.odom_from_base = prediction.odom_from_base;
   match.window = prediction.window;
+  Pose2 start_from_base = start_from_base_;
   if (!last_stamp_) {
     match.status = MatchStatus::kFirst;
     start_stamp_ = model.stamp;
@@ -75,14 +76,17 @@ MatchedMotion BoundedIcp::Match(const FusedModel& model) {
     // From frame to frame errors add up; against the map they do not.
     covariance_ = use_local_map ? outcome.covariance
                                 : TransportCovariance(covariance_, motion) + outcome.covariance;
-    start_from_base_ = start_from_base_ * motion;
-    predictor_.Update(model.stamp, motion);
+    start_from_base = start_from_base_ * motion;
+    if (!outcome.undecided) {  // else the encoders may still tell the motion from the last scan on
+      start_from_base_ = start_from_base;
+      predictor_.Update(model.stamp, motion);
+    }
   }
   if (model.has_image) last_image_stamp_ = model.stamp;
   match.mode = ModeOf(match);
   match.covariance = covariance_;
   last_stamp_ = model.stamp;
-  ChooseReference(&match);
+  ChooseReference(start_from_base, &match);
   return match;
 }
 
@@ -94,17 +98,17 @@ MatchMode BoundedIcp::ModeOf(const MatchedMotion& match) const {
 }
 
 /// Motions are told from a scan not far back, so that they stay small and mean what was measured.
-void BoundedIcp::ChooseReference(MatchedMotion* match) {
+void BoundedIcp::ChooseReference(const Pose2& start_from_base, MatchedMotion* match) {
   match->start_stamp = start_stamp_;
   match->reference_stamp = reference_stamp_;
   match->start_from_reference = start_from_reference_;
-  match->motion = start_from_reference_.Inverse() * start_from_base_;
+  match->motion = start_from_reference_.Inverse() * start_from_base;
   const bool too_far = options_.reference == Reference::kPreviousFrame ||
                        match->motion.translation().norm() > options_.reference_distance ||
                        std::abs(match->motion.theta) > options_.reference_angle;
   if (too_far) {
     reference_stamp_ = match->stamp;
-    start_from_reference_ = start_from_base_;
+    start_from_reference_ = start_from_base;
   }
 }
 

@@ -12,6 +12,9 @@ namespace {
 /// After so many scans that show nothing known, the surroundings are taken for new ones.
 constexpr int kMaxUnmatched = 20;
 
+/// Of a scan's points, to believe a match when the robot may be outside of the window.
+constexpr double kMost = 0.6;
+
 /// Points that represent a scan in the search: evenly spaced along the walls, and ordered so that
 /// any first few of them represent the whole, because then bad candidates are given up early.
 std::vector<Eigen::Vector2d> SearchPoints(const std::vector<SurfacePoint>& points, double spacing) {
@@ -95,18 +98,18 @@ SearchResult LocalMapMatcher::Search(const std::vector<SurfacePoint>& points,
       });
 }
 
-MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_from_last,
-                                    const MotionPrediction& prediction) {
-  std::vector<SurfacePoint> points = EstimateSurface(model, options_.surface, options_.noise);
-  MatchOutcome outcome;
-  time_ += prediction.dt;
+LocalMapMatcher::Alignment LocalMapMatcher::Align(const FusedModel& model,
+                                                  const Pose2& map_from_predicted,
+                                                  const MotionPrediction& prediction) const {
+  Alignment alignment;
+  alignment.points = EstimateSurface(model, options_.surface, options_.noise);
   if (!prediction.from_encoders) {
-    outcome.sweep_correction = VelocityOf(prediction.motion, prediction.dt) - model.sweep_velocity;
-    points = CorrectSweep(std::move(points), outcome.sweep_correction);
+    alignment.sweep_correction =
+        VelocityOf(prediction.motion, prediction.dt) - model.sweep_velocity;
+    alignment.points = CorrectSweep(std::move(alignment.points), alignment.sweep_correction);
   }
-  const Pose2 map_from_predicted = map_from_last * prediction.motion;
-  std::vector<SurfacePoint> standing = Standing(points, map_from_predicted);
-  const SearchResult found = Search(standing, map_from_predicted, prediction);
+  std::vector<SurfacePoint> standing = Standing(alignment.points, map_from_predicted);
+  alignment.found = Search(standing, map_from_predicted, prediction);
 
   MotionPrior prior;
   prior.map_from_base = map_from_predicted;
@@ -116,42 +119,60 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
   const auto refine_from = [&](const Pose2& start) {
     return Refine(standing, local_map_, options_.noise, prior, start, options_.refinement);
   };
-  Refinement refined = refine_from(map_from_predicted * FromArcCoordinates(found.deviation));
+  Refinement& refined = alignment.refined;
+  refined = refine_from(map_from_predicted * FromArcCoordinates(alignment.found.deviation));
   Velocity2 error = VelocityOverSweep(map_from_predicted.Inverse() * refined.map_from_base,
-                                      prediction.dt, points);
+                                      prediction.dt, alignment.points);
   if (refined.degenerate) error.x = error.y = 0.0;  // along a corridor the scan says nothing of it
-  if (MattersForSweep(error, points)) {
-    points = CorrectSweep(std::move(points), error);
-    standing = Standing(points, refined.map_from_base);
-    outcome.sweep_correction = outcome.sweep_correction + error;
+  if (MattersForSweep(error, alignment.points)) {
+    alignment.points = CorrectSweep(std::move(alignment.points), error);
+    standing = Standing(alignment.points, refined.map_from_base);
+    alignment.sweep_correction = alignment.sweep_correction + error;
     refined = refine_from(refined.map_from_base);
   }
+  alignment.standing = static_cast<int>(standing.size());
+  return alignment;
+}
+
+MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_from_last,
+                                    const MotionPrediction& prediction) {
+  const Pose2 map_from_predicted = map_from_last * prediction.motion;
+  const Alignment alignment = Align(model, map_from_predicted, prediction);
+  const Refinement& refined = alignment.refined;
+  MatchOutcome outcome;
+  outcome.sweep_correction = alignment.sweep_correction;
+  outcome.e = alignment.found.e;
+  outcome.rms = refined.rms;
+  outcome.candidates = alignment.found.candidates;
+  outcome.points = alignment.standing;
+  outcome.matched = refined.matched;
+  if (prediction.blind && !alignment.ShowsAtLeast(kMost) && ++blind_ <= kMaxUnmatched) {
+    outcome.too_few_points = outcome.undecided = true;
+    outcome.covariance =
+        TransportCovariance(filter_.PoseCovariance(), prediction.motion) + prediction.covariance;
+    return outcome;
+  }
+  blind_ = 0;
+  time_ += prediction.dt;
 
   const std::vector<ModelEdge> edges = WithoutWalkers(
-      CorrectSweep(model.edges, outcome.sweep_correction), points, refined.map_from_base);
+      CorrectSweep(model.edges, outcome.sweep_correction), alignment.points, refined.map_from_base);
   Filter(refined, edges, map_from_last, prediction);
   const ArcCoordinates deviation =
       ToArcCoordinates(map_from_predicted.Inverse() * filter_.map_from_base());
   outcome.on_window_edge = !prediction.window.Contains(deviation);
   outcome.deviation = prediction.window.Clamp(deviation);
   outcome.covariance = filter_.PoseCovariance();
-  outcome.e = found.e;
-  outcome.rms = refined.rms;
-  outcome.candidates = found.candidates;
-  outcome.points = static_cast<int>(standing.size());
-  outcome.matched = refined.matched;
   outcome.degenerate = refined.degenerate && !EdgesHold();
   outcome.degenerate_direction = refined.degenerate_direction;
   way_ += (prediction.motion * FromArcCoordinates(outcome.deviation)).translation().norm();
   ForgetOldSurroundings();
-  outcome.too_few_points =
-      refined.matched == 0 || refined.matched < options_.min_matched_fraction * outcome.points;
+  outcome.too_few_points = !alignment.ShowsAtLeast(options_.min_matched_fraction);
   unmatched_ = outcome.too_few_points ? unmatched_ + 1 : 0;
   const bool unknown_surroundings = local_map_.elements().empty() || unmatched_ > kMaxUnmatched;
   if (!outcome.on_window_edge && (!outcome.too_few_points || unknown_surroundings)) {
     unmatched_ = 0;
-    const Pose2 map_from_base = map_from_predicted * FromArcCoordinates(outcome.deviation);
-    InsertIfMoved(points, map_from_base);
+    InsertIfMoved(alignment.points, map_from_predicted * FromArcCoordinates(outcome.deviation));
   }
   return outcome;
 }

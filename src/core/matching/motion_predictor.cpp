@@ -97,6 +97,13 @@ MotionPrediction MotionPredictor::Predict(Stamp stamp) const {
   } else {
     prediction.motion = Move(velocity_, std::min(dt, bounds.max_time));
     bounds.lateral_per_distance = options_.lateral_per_distance_without_encoders;
+    constexpr double kGap = 3.0;  // usual periods
+    prediction.blind = !odometry_.empty() && dt > std::max(bounds.max_time, kGap * period_);
+    // Though readings were lost around the last scan, those before and after tell most of the way.
+    const std::optional<Pose2> roughly_last = odometry_.ContinuousPose(*last_stamp_);
+    if (prediction.blind && continuous_from_base && roughly_last) {
+      prediction.motion = roughly_last->Inverse() * *continuous_from_base;
+    }
   }
   prediction.window = MakeWindow(prediction.motion, prediction.dt, bounds);
   if (prediction.from_encoders) {

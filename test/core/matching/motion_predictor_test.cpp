@@ -186,6 +186,40 @@ TEST(MotionPredictor, TakesNothingFromEncodersThatPausedAroundTheLastScan) {
   EXPECT_FALSE(predictor.Predict(FromSeconds(2.0)).from_encoders);
 }
 
+TEST(MotionPredictor, IsBlindAfterALongGapThatEncodersSayNothingOf) {
+  MotionPredictor predictor = WithEncoders();
+  predictor.Update(FromSeconds(1.1), {0.2, 0.0, 0.0});
+  EXPECT_FALSE(predictor.Predict(FromSeconds(1.59)).blind) << "the window reaches 0.5 s";
+  EXPECT_TRUE(predictor.Predict(FromSeconds(1.61)).blind);
+  for (int i = 1; i <= 6; ++i) predictor.odometry().Add(FromSeconds(1.1 + 0.1 * i), Pose2());
+  EXPECT_FALSE(predictor.Predict(FromSeconds(1.61)).blind);
+}
+
+TEST(MotionPredictor, TakesRoughlyTheEncodersMotionAcrossALongGapWithAPause) {
+  MotionPredictor predictor(DecimalOptions());
+  predictor.odometry().Add(FromSeconds(0.5), {5.0, 0.0, 0.0});
+  predictor.Update(FromSeconds(1.0), Pose2());
+  predictor.odometry().Add(FromSeconds(2.5), {6.0, 0.0, 0.0});
+  const MotionPrediction rough = predictor.Predict(FromSeconds(2.5));
+  EXPECT_TRUE(rough.blind);
+  EXPECT_FALSE(rough.from_encoders);
+  ExpectMotion(rough.motion, {0.75, 0.0, 0.0});
+  EXPECT_NEAR(rough.window.half_lateral, 2.0 * rough.window.half_distance, 1e-12);
+}
+
+TEST(MotionPredictor, IsNotBlindWhereEncodersNeverSpoke) {
+  EXPECT_FALSE(WithoutEncoders().Predict(FromSeconds(5.0)).blind);
+}
+
+TEST(MotionPredictor, IsNotBlindBetweenTheScansOfASlowLaser) {
+  MotionPredictor slow(DecimalOptions());
+  slow.odometry().Add(FromSeconds(0.1), Pose2());
+  for (const double seconds : {1.0, 2.0}) slow.Update(FromSeconds(seconds), Pose2());
+  EXPECT_FALSE(slow.Predict(FromSeconds(3.0)).blind);
+  EXPECT_FALSE(slow.Predict(FromSeconds(4.9)).blind);
+  EXPECT_TRUE(slow.Predict(FromSeconds(5.1)).blind);
+}
+
 TEST(MotionPredictor, TakesTheUsualPeriodForStampsThatJitter) {
   MotionPredictor predictor = WithoutEncoders();
   const MotionPrediction early = predictor.Predict(FromSeconds(1.11));

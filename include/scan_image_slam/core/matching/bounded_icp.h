@@ -55,7 +55,7 @@ class BoundedIcp {
   void Reset() { *this = BoundedIcp(options_); }
 
  private:
-  void ChooseReference(MatchedMotion* match);
+  void ChooseReference(const Pose2& start_from_base, MatchedMotion* match);
   MatchMode ModeOf(const MatchedMotion& match) const;
 
   BoundedIcpOptions options_;
@@ -64,7 +64,7 @@ class BoundedIcp {
   FrameMatcher frame_matcher_;
   std::optional<Stamp> last_stamp_;
   std::optional<Stamp> last_image_stamp_;  ///< of the last model that an image was fused into
-  Pose2 start_from_base_;
+  Pose2 start_from_base_;                  ///< of the last scan that was decided
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   Stamp start_stamp_ = 0;
   Stamp reference_stamp_ = 0;

@@ -53,6 +53,19 @@ class LocalMapMatcher {
   const PoseFilter& filter() const { return filter_; }
 
  private:
+  /// A scan laid on the map.
+  struct Alignment {
+    std::vector<SurfacePoint> points;  ///< of the scan, corrected for its sweep
+    int standing = 0;                  ///< of them, those on nothing that may walk
+    Velocity2 sweep_correction;
+    SearchResult found;
+    Refinement refined;
+    bool ShowsAtLeast(double fraction) const {
+      return refined.matched > 0 && refined.matched >= fraction * standing;
+    }
+  };
+  Alignment Align(const FusedModel& model, const Pose2& map_from_predicted,
+                  const MotionPrediction& prediction) const;
   SearchResult Search(const std::vector<SurfacePoint>& points, const Pose2& map_from_predicted,
                       const MotionPrediction& prediction) const;
   bool MayWalk(const SurfacePoint& point, const RigidTransform2& map_from_base) const;
@@ -73,6 +86,7 @@ class LocalMapMatcher {
   Pose2 map_from_inserted_;
   int inserted_ = 0;
   int unmatched_ = 0;                   ///< scans since the last that showed something known
+  int blind_ = 0;                       ///< scans in a row that were left undecided
   double way_ = 0.0;                    ///< driven so far [m]
   double time_ = 0.0;                   ///< since the start [s]
   std::optional<double> way_at_edges_;  ///< when an image told something the last time

@@ -17,7 +17,8 @@ struct MatchOutcome {
   int points = 0;      ///< points of the scan
   int matched = 0;     ///< points that found a counterpart
   bool on_window_edge = false;
-  bool too_few_points = false;        ///< the scan shows too little of what is known
+  bool too_few_points = false;  ///< the scan shows too little of what is known
+  bool undecided = false;  ///< and the prediction is blind: nothing was learned, the motion is open
   bool degenerate = false;            ///< one direction was left to the prediction
   double degenerate_direction = 0.0;  ///< in the base frame [rad]
 };

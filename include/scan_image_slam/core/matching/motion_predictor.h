@@ -40,6 +40,9 @@ struct MotionPrediction {
   Pose2 motion;                ///< of the base since the last scan
   double dt = 0.0;             ///< time since the last scan, at least the usual period [s]
   bool from_encoders = false;  ///< false: the velocity of the last match, kept
+  /// True if encoders say nothing, or nothing yet, of a gap longer than bounds.max_time: the robot
+  /// may be outside of the window.
+  bool blind = false;
   SearchWindow window;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (forward, left, turn) [m, m, rad]
   std::optional<Pose2> odom_from_base;                   ///< in the frame of the odometry
