@@ -1,6 +1,6 @@
 #include "scan_image_slam/ros/scan_image_fusion_node.h"
 
-#include "scan_image_slam/core/fusion/fusion_picture.h"
+#include "scan_image_slam/core/pipeline/fusion_picture.h"
 #include "scan_image_slam/core/recording/number_text.h"
 #include "scan_image_slam/ros/image_conversion.h"
 #include "scan_image_slam/ros/node_parameters.h"
@@ -83,7 +83,8 @@ ScanImageFusionNode::Options ScanImageFusionNode::ReadOptions(const ros::NodeHan
 }
 
 ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle private_node)
-    : options_(ReadOptions(private_node)),
+    : node_(node),
+      options_(ReadOptions(private_node)),
       fusion_(options_.fusion),
       gate_(options_.node.odometry.max_wait, kMaxWaitingScans),
       watch_(node, private_node),
@@ -246,6 +247,7 @@ void ScanImageFusionNode::OnCompressedImage(const sensor_msgs::CompressedImageCo
 
 void ScanImageFusionNode::ReleaseScans() {
   while (const auto scan = gate_.Pop(SteadyNow(), fusion_.odometry())) {
+    PublishPicture(nullptr);  // if its match has not come, it is not waited for any longer
     Publish(fusion_time_.Measure([&] { return fusion_.Fuse(*scan); }));
   }
   // The next one is looked at again when its time is up, though nothing arrives.
@@ -260,7 +262,7 @@ void ScanImageFusionNode::Publish(const FusedModel& model) {
     }
     return;
   }
-  if (picture_publisher_.getNumSubscribers() > 0) PublishPicture(model);
+  PreparePicture(model);
   if (edges_publisher_.getNumSubscribers() > 0) PublishEdges(model);
   WatchCalibration(model);
 }
@@ -275,17 +277,46 @@ void ScanImageFusionNode::WatchCalibration(const FusedModel& model) {
 
 /// What was seen belongs to another calibration, or to another time.
 void ScanImageFusionNode::ForgetCalibration() {
+  to_draw_.reset();
   calibration_watch_ = CalibrationWatch();
   misfit_.reset();
   misfit_stamp_ = 0;
   watch_.ForgetProblem(kMisfit);
 }
 
-void ScanImageFusionNode::PublishPicture(const FusedModel& model) {
+/// The picture shows what became of the edges, too: it is drawn when the match is known, if there
+/// is to be one.
+void ScanImageFusionNode::PreparePicture(const FusedModel& model) {
+  if (picture_publisher_.getNumSubscribers() == 0) {
+    match_subscriber_.shutdown();
+    return;
+  }
+  to_draw_ = model;
+  if (!match_subscriber_) {
+    match_subscriber_ = node_.subscribe("scan_match", kModelQueue, &ScanImageFusionNode::OnMatch,
+                                        this, ros::TransportHints().tcpNoDelay());
+  }
+  if (match_subscriber_.getNumPublishers() == 0) PublishPicture(nullptr);
+}
+
+void ScanImageFusionNode::OnMatch(const ScanMatchConstPtr& message) {
+  if (!to_draw_ || ToStamp(message->header.stamp) != to_draw_->stamp) return;
+  try {
+    const MatchedMotion match = FromMessage(*message);
+    PublishPicture(&match);
+  } catch (const std::invalid_argument& error) {
+    watch_.Refuse(match_subscriber_.getTopic(), error.what());
+  }
+}
+
+/// Null: without what the matching says.
+void ScanImageFusionNode::PublishPicture(const MatchedMotion* match) {
+  if (!to_draw_) return;
+  const FusedModel model = *std::exchange(to_draw_, std::nullopt);
   cv_bridge::CvImage picture;
   picture.header.stamp = ToRosTime(fusion_.evidence().image.stamp);
   picture.encoding = "bgr8";
-  picture.image = DrawFusion(fusion_, model);
+  picture.image = DrawFusion(fusion_, model, match);
   picture_publisher_.publish(picture.toImageMsg());
 }
 

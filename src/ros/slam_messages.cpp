@@ -179,6 +179,10 @@ ScanMatch ToMessage(const MatchedMotion& match, const std::string& base_frame) {
   message.rms = match.rms;
   message.points = static_cast<std::uint32_t>(match.points);
   message.matched = static_cast<std::uint32_t>(match.matched);
+  for (const EdgeMatch& edge : match.edges) {
+    message.edge_uses.push_back(static_cast<std::uint8_t>(edge.use));
+    message.edge_residuals.push_back(static_cast<float>(edge.residual));
+  }
   message.degenerate_direction = match.degenerate_direction;
   message.sweep_correction_x = match.sweep_correction.x;
   message.sweep_correction_y = match.sweep_correction.y;
@@ -220,6 +224,15 @@ MatchedMotion FromMessage(const ScanMatch& message) {
   match.rms = message.rms;
   match.points = static_cast<int>(message.points);
   match.matched = static_cast<int>(message.matched);
+  if (message.edge_uses.size() != message.edge_residuals.size()) {
+    throw std::invalid_argument("edge_uses and edge_residuals differ in length");
+  }
+  for (std::size_t i = 0; i < message.edge_uses.size(); ++i) {
+    if (message.edge_uses[i] > ScanMatch::EDGE_REFUSED) {
+      throw std::invalid_argument("unknown use of an edge");
+    }
+    match.edges.push_back({static_cast<EdgeUse>(message.edge_uses[i]), message.edge_residuals[i]});
+  }
   match.degenerate_direction = message.degenerate_direction;
   match.sweep_correction = {message.sweep_correction_x, message.sweep_correction_y,
                             message.sweep_correction_yaw};

@@ -1,11 +1,11 @@
 // Runs the three stages on a bag, in process and as fast as the machine allows.
 
+#include "fusion_pictures.h"
 #include "picture_file.h"
 #include "progress_line.h"
 #include "run_tool.h"
 #include "scan_image_slam/core/evaluation/statistics.h"
 #include "scan_image_slam/core/evaluation/trajectory.h"
-#include "scan_image_slam/core/fusion/fusion_picture.h"
 #include "scan_image_slam/core/mapping/map_file.h"
 #include "scan_image_slam/core/mapping/map_picture.h"
 #include "scan_image_slam/core/mapping/state_file.h"
@@ -19,10 +19,8 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
-#include <iomanip>
 #include <iostream>
 #include <limits>
-#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -36,7 +34,7 @@ struct Arguments {
   BagArguments input;
   std::string out;
   bool no_images = false;
-  int fusion_images = 0;  ///< every so many images a picture; 0: none
+  FusionPictures::Options pictures;
   int threads = 1;
   std::string state;  ///< to begin with; empty: none
   bool localization = false;
@@ -119,25 +117,6 @@ struct Run {
   }
 };
 
-/// Pictures of every nth image that was fused: FOLDER/fusion_000001.png and so on, by its number.
-class FusionPictures {
- public:
-  FusionPictures(std::string folder, int every) : folder_(std::move(folder)), every_(every) {}
-
-  void Add(const ScanImageFusion& fusion, const FusedModel& model) {
-    if (every_ == 0 || !model.has_image) return;
-    if (fused_++ % every_ != 0) return;
-    std::ostringstream name;
-    name << folder_ << "/fusion_" << std::setw(6) << std::setfill('0') << fused_ << ".png";
-    WritePicture(name.str(), DrawFusion(fusion, model));
-  }
-
- private:
-  std::string folder_;
-  int every_;
-  int fused_ = 0;
-};
-
 double PeakMemoryMegabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -186,7 +165,7 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
   MakeFolder(arguments.out);
 
   Run run;
-  FusionPictures pictures(arguments.out, arguments.fusion_images);
+  FusionPictures pictures(arguments.out, arguments.pictures);
   StageTimes times;
   const auto run_stage = [&](Stage stage, const std::function<void()>& work) {
     times.Run(stage, work);
@@ -195,7 +174,7 @@ void RunOffline(const Arguments& arguments, const SlamOptions& options) {
       options,
       [&](const PipelineResult& result) {
         run.Add(result);
-        pictures.Add(pipeline.fusion(), result.model);
+        pictures.Add(pipeline.fusion(), result);
         times.FinishScan();
       },
       run_stage);
@@ -254,10 +233,12 @@ int Main(int argc, char** argv) {
   arguments.input.AddTo(&app);
   app.add_option("--out", arguments.out, "folder for the results; made if absent")->required();
   app.add_flag("--no-images", arguments.no_images, "laser and encoders only");
-  app.add_option("--fusion-images", arguments.fusion_images,
+  app.add_option("--fusion-images", arguments.pictures.every,
                  "write what the fusion sees, fusion_000001.png, for every so many images; 0: none")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
+  app.add_option("--video", arguments.pictures.video,
+                 "write what the fusion sees of all images as a film, FILE.avi");
   app.add_option("--threads", arguments.threads, "threads of the image processing")
       ->capture_default_str()
       ->check(CLI::Range(1, 64));

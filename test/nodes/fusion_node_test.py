@@ -8,8 +8,9 @@ import rospy
 import rostest
 from camera_support import CameraTest
 from live_support import (FOCAL, HEIGHT, WALLS, WIDTH, Recorder, make_camera_info, make_image,
-                          make_odometry, make_scan, optical_transform, room_scan, transform)
-from scan_image_slam.msg import VerticalEdge
+                          make_odometry, make_scan, optical_transform, publisher, room_scan,
+                          transform, wait_subscribed)
+from scan_image_slam.msg import ScanMatch, VerticalEdge
 from sensor_msgs.msg import Image
 from visualization_msgs.msg import MarkerArray
 
@@ -111,6 +112,28 @@ class FusionNodeTest(CameraTest):
         self.assertAlmostEqual(points[0].x, WALLS[1], delta=0.02)
         self.assertFalse(self.fuse(room_scan(self.next_time(0.025), frame='straight_laser'))
                          .has_image, 'an image is used once')
+
+    def test_the_picture_shows_what_became_of_the_edges(self):
+        pixels = numpy.full((HEIGHT, WIDTH), 60, numpy.uint8)
+        pixels[:, 200:] = 180
+        matches = publisher('scan_match', ScanMatch)
+        pictures = Recorder('fusion/image', Image).wait_connected()
+        self.info.publish(make_camera_info(self.next_time()))
+        # While a picture is wanted, and not longer, the matching is listened to.
+        self.fuse_with_image(self.next_time(), pixels)
+        wait_subscribed(matches)
+
+        def has_red(picture):
+            colours = numpy.frombuffer(picture.data, numpy.uint8).reshape(-1, 3).astype(int)
+            return bool(((colours[:, 2] > 250) & (colours[:, :2].max(axis=1) < 5)).sum() > 50)
+        for use, red in ((ScanMatch.EDGE_MATCHED, False), (ScanMatch.EDGE_REFUSED, True)):
+            model = self.fuse_with_image(self.next_time(0.1), pixels)
+            match = ScanMatch()
+            match.header.stamp = model.header.stamp
+            match.edge_uses = bytes([use] * len(model.edges))
+            match.edge_residuals = [0.0] * len(model.edges)
+            matches.publish(match)
+            self.assertEqual(has_red(pictures.at(model.header.stamp.to_sec())), red)
 
     def fuse_with_image(self, t, pixels):
         """The first model that an image was fused into: topics go different ways."""

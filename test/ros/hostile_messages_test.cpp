@@ -58,6 +58,13 @@ TEST(HostileMatch, IsRefused) {
   EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->covariance[4] = kNan; }), "");
   EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->sweep_correction_yaw = kNan; }), "");
   EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->mode = 99; }), "");
+  EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->edge_uses = {2}; }), "");
+  EXPECT_NE(RefusalOf(GoodMatch(),
+                      [](ScanMatch* m) {
+                        m->edge_uses = {4};
+                        m->edge_residuals = {0.0f};
+                      }),
+            "");
 }
 
 TEST(HostileModel, IsRefused) {

@@ -141,6 +141,26 @@ class SlamOffline(ToolTest):
         self.slam(self.bag, "--fusion-images", 10, "--no-images", out="without")
         self.assertEqual(sorted(os.listdir(self.path("without"))), FILES)
 
+    def test_film_of_the_fusion(self):
+        film = self.path("fusion.avi")
+        self.slam(self.bag, "--video", film)
+        video = cv2.VideoCapture(film)
+        self.assertEqual(video.get(cv2.CAP_PROP_FPS), 30)
+        frames = 0
+        while True:
+            read, frame = video.read()
+            if not read:
+                break
+            frames += 1
+            self.assertEqual(frame.shape[1], 640)
+        # Each image that was fused; the first and the last may find no scan.
+        self.assertLessEqual(abs(frames - self.report()["images"]), 2)
+        self.assertGreater(frames, 30)
+        result = run("slam_offline", "--bag", self.bag, "--out", self.path("out"), "--video",
+                     self.path("nowhere", "fusion.avi"))
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("nowhere/fusion.avi", result.stderr)
+
     def test_no_images(self):
         self.slam(self.bag, "--no-images")
         self.assertEqual(self.report()["images"], 0)

@@ -11,6 +11,7 @@ OPTIONS = {
         "--set",
         "--no-images",
         "--fusion-images",
+        "--video",
         "--threads",
         "--scan-topic",
         "--image-topic",

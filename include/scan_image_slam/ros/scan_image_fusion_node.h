@@ -3,6 +3,7 @@
 #include "scan_image_slam/core/calibration/calibration_watch.h"
 #include "scan_image_slam/core/config/slam_parameters.h"
 #include "scan_image_slam/core/fusion/scan_image_fusion.h"
+#include "scan_image_slam/core/matching/matched_motion.h"
 #include "scan_image_slam/core/sensor/odometry_gate.h"
 #include "scan_image_slam/ros/busy_time.h"
 #include "scan_image_slam/ros/input_watch.h"
@@ -11,6 +12,7 @@
 #include "scan_image_slam/ros/sensor_mount.h"
 #include "scan_image_slam/ros/time_guard.h"
 #include "scan_image_slam/ros/wake_up.h"
+#include <scan_image_slam/ScanMatch.h>
 
 #include <memory>
 #include <optional>
@@ -50,12 +52,15 @@ class ScanImageFusionNode {
   void OnOdometry(Stamp stamp, const Pose2& odom_from_base);
   void ReleaseScans();
   void Publish(const FusedModel& model);
-  void PublishPicture(const FusedModel& model);
+  void PreparePicture(const FusedModel& model);
+  void OnMatch(const ScanMatchConstPtr& message);
+  void PublishPicture(const MatchedMotion* match);
   void PublishEdges(const FusedModel& model);
   void WatchCalibration(const FusedModel& model);
   void ForgetCalibration();
   void StartOver();
 
+  ros::NodeHandle node_;
   Options options_;
   ScanImageFusion fusion_;
   CalibrationWatch calibration_watch_;
@@ -73,6 +78,8 @@ class ScanImageFusionNode {
   BusyTime fusion_time_;
   std::string camera_info_text_;  ///< the intrinsics in use, to notice others
 
+  std::optional<FusedModel> to_draw_;  ///< of the last image, until its match has come
+
   ros::Publisher model_publisher_;
   ros::Publisher edges_publisher_;
   image_transport::Publisher picture_publisher_;
@@ -80,6 +87,7 @@ class ScanImageFusionNode {
   ros::Subscriber camera_info_subscriber_;
   ros::Subscriber compressed_subscriber_;
   image_transport::Subscriber image_subscriber_;
+  ros::Subscriber match_subscriber_;
   std::unique_ptr<OdometryFeed> odometry_;
   WakeUp wake_up_;
   LiveParameters live_parameters_;

@@ -164,6 +164,7 @@ void ScanImageFusion::FuseImage(const CameraImage& image, FusedModel* model) {
       MakeRegionOfInterest(evidence_.profile, *bearing_image_, laser_.height, options_.edges);
   evidence_.edges = ExtractEdges(image.grey, *bearing_image_, evidence_.profile, evidence_.region,
                                  options_.edges);
+  evidence_.in_model.clear();
   for (const ImageEdge& image_edge : evidence_.edges) {
     const int column = static_cast<int>(std::lround(image_edge.column));
     const int beam_index = evidence_.profile.columns[column].beam;
@@ -174,6 +175,7 @@ void ScanImageFusion::FuseImage(const CameraImage& image, FusedModel* model) {
     }
     const std::optional<ModelEdge> edge =
         ToModelEdge(image_edge, *model, points, image.stamp, beam_index);
+    evidence_.in_model.push_back(edge ? static_cast<int>(model->edges.size()) : -1);
     if (edge) model->edges.push_back(*edge);
   }
 }

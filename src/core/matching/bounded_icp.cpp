@@ -72,6 +72,7 @@ MatchedMotion BoundedIcp::Match(const FusedModel& model) {
     match.candidates = outcome.candidates;
     match.points = outcome.points;
     match.matched = outcome.matched;
+    match.edges = outcome.edges;
     match.degenerate_direction = outcome.degenerate_direction;
     // From frame to frame errors add up; against the map they do not.
     covariance_ = use_local_map ? outcome.covariance

@@ -129,7 +129,9 @@ LocalMapMatcher::Alignment LocalMapMatcher::Align(const FusedModel& model,
     standing = Standing(alignment.points, refined.map_from_base);
     alignment.sweep_correction = alignment.sweep_correction + error;
     refined = refine_from(refined.map_from_base);
+    error = Velocity2();
   }
+  alignment.edge_correction = alignment.sweep_correction + error;
   alignment.standing = static_cast<int>(standing.size());
   return alignment;
 }
@@ -155,9 +157,8 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
   blind_ = 0;
   time_ += prediction.dt;
 
-  const std::vector<ModelEdge> edges = WithoutWalkers(
-      CorrectSweep(model.edges, outcome.sweep_correction), alignment.points, refined.map_from_base);
-  Filter(refined, edges, map_from_last, prediction);
+  outcome.edges = Filter(alignment, CorrectSweep(model.edges, alignment.edge_correction),
+                         map_from_last, prediction);
   const ArcCoordinates deviation =
       ToArcCoordinates(map_from_predicted.Inverse() * filter_.map_from_base());
   outcome.on_window_edge = !prediction.window.Contains(deviation);
@@ -226,17 +227,26 @@ bool LocalMapMatcher::EdgesHold() const {
   return way_at_edges_ && way_ - *way_at_edges_ <= kReach;
 }
 
-/// Puts together what encoders, scan and image tell.
-void LocalMapMatcher::Filter(const Refinement& scan, const std::vector<ModelEdge>& edges,
-                             const Pose2& map_from_last, const MotionPrediction& prediction) {
+/// Puts together what encoders, scan and image tell. Returns what became of the edges.
+std::vector<EdgeMatch> LocalMapMatcher::Filter(const Alignment& alignment,
+                                               std::vector<ModelEdge> edges,
+                                               const Pose2& map_from_last,
+                                               const MotionPrediction& prediction) {
+  const Refinement& scan = alignment.refined;
   // The kernel finds wheels that slip where the laser sees it; in a corridor the edges must.
   filter_.Predict(map_from_last, prediction, prediction.covariance / scan.prior_weight);
   filter_.AddScan(scan.linearised_at, scan.information, scan.gradient);
+  std::vector<EdgeMatch> matches(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) edges[i].id = static_cast<int>(i);
+  edges = WithoutWalkers(std::move(edges), alignment.points, scan.map_from_base);
   const std::vector<ModelEdge> distinct = DistinctEdges(edges, options_.filter.edges);
   if (scan.degenerate && filter_.Contradicts(distinct)) {
     filter_.DoubtWay(prediction.window.half_distance / 3.0);
   }
-  if (filter_.AddEdges(distinct) > 0) way_at_edges_ = way_;
+  const std::vector<EdgeMatch> of_distinct = filter_.AddEdges(distinct);
+  if (CountMatched(of_distinct) > 0) way_at_edges_ = way_;
+  for (std::size_t i = 0; i < distinct.size(); ++i) matches[distinct[i].id] = of_distinct[i];
+  return matches;
 }
 
 void LocalMapMatcher::InsertIfMoved(const std::vector<SurfacePoint>& points,

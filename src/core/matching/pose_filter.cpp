@@ -17,6 +17,7 @@ constexpr std::size_t kMostEdges = 40;     // at once; more would tell nothing n
 constexpr double kLeastInformation = 1.0;  // of a direction [1/m^2, 1/rad^2]
 constexpr double kLeastTilt = 0.01;        // what the normals of a scan are good for [rad]
 constexpr double kSmoothing = 0.1;         // share of the newest sight in an edge's precision
+constexpr double kTurnNoise = 0.012;       // of what is known of a turn between two scans [rad/s]
 constexpr double kPatience = 0.2;  // driven until a newcomer not seen again is forgotten [m]
 
 /// From (forward, left, turn) of the base to (x, y, turn) of the map.
@@ -127,29 +128,41 @@ bool PoseFilter::Contradicts(const std::vector<ModelEdge>& edges) const {
   return known >= 2 && 2 * off > known;
 }
 
-int PoseFilter::AddEdges(const std::vector<ModelEdge>& edges) {
+std::vector<EdgeMatch> PoseFilter::AddEdges(const std::vector<ModelEdge>& edges) {
+  std::vector<EdgeMatch> matches(edges.size());
+  if (!edges.empty()) BeginImage(edges.front().time_offset);
   // All are assigned before the first moves the pose.
-  std::vector<std::pair<const ModelEdge*, int>> known;
+  std::vector<std::pair<std::size_t, int>> known;
   std::vector<const ModelEdge*> unknown;
-  for (const ModelEdge& edge : edges) {
-    const int track = Nearest(edge, options_.edges.gate);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const int track = Nearest(edges[i], options_.edges.gate);
     if (track >= 0) {
-      known.emplace_back(&edge, track);
-    } else if (Nearest(edge, options_.edges.min_separation) < 0) {
-      unknown.push_back(&edge);
+      known.emplace_back(i, track);
+    } else if (Nearest(edges[i], options_.edges.min_separation) < 0) {
+      unknown.push_back(&edges[i]);
+      matches[i].use = EdgeUse::kNew;
     }
   }
-  int used = 0;
-  for (const auto& [edge, track] : known) {
-    LetShift(*edge, track);
-    const Sight sight = SightOf(*edge, track);
+  for (const auto& [i, track] : known) {
+    LetShift(edges[i], track);
+    const Sight sight = SightOf(edges[i], track);
+    matches[i] = {EdgeUse::kRefused, sight.innovation};
     if (std::abs(sight.innovation) > kGate * std::sqrt(VarianceOf(sight))) continue;
+    matches[i].use = EdgeUse::kMatched;
     Update(sight.innovation, sight.variance, sight.jacobian);
     tracks_[track].last_seen = way_;
-    ++used;
   }
   Welcome(unknown);
-  return used;
+  return matches;
+}
+
+/// How the base has turned between image and scan is not known exactly, and what is wrong of it is
+/// wrong of all edges of the image alike.
+void PoseFilter::BeginImage(double time_offset) {
+  state_[kImageTurn] = 0.0;
+  covariance_.row(kImageTurn).setZero();
+  covariance_.col(kImageTurn).setZero();
+  covariance_(kImageTurn, kImageTurn) = std::pow(kTurnNoise * time_offset, 2);
 }
 
 /// Where an edge comes nearer, the first image that shows it near enough is one whose noise shows
@@ -196,8 +209,8 @@ Eigen::Vector2d PoseFilter::LeastKnownDirection() const {
 /// Where an edge is in the map: on the surface that the laser sees at its bearing.
 Eigen::Vector2d PoseFilter::PlaceOf(const ModelEdge& edge) const {
   return map_from_base_ *
-         Eigen::Vector2d(edge.camera + (edge.range + edge.range_by_bearing * camera_yaw()) *
-                                           Direction(edge.bearing + camera_yaw()));
+         Eigen::Vector2d(edge.camera + (edge.range + edge.range_by_bearing * view_yaw()) *
+                                           Direction(edge.bearing + view_yaw()));
 }
 
 int PoseFilter::Nearest(const ModelEdge& edge, double reach) const {
@@ -220,13 +233,13 @@ PoseFilter::Sight PoseFilter::SightOf(const ModelEdge& edge, int track) const {
   const Eigen::Vector2d across = Across(ray / range);
   const Eigen::Vector2d arm = camera - map_from_base_.translation();
   Sight sight;
-  sight.innovation = NormalizeAngle(edge.bearing + camera_yaw() + map_from_base_.theta -
+  sight.innovation = NormalizeAngle(edge.bearing + view_yaw() + map_from_base_.theta -
                                     std::atan2(ray.y(), ray.x()));
   sight.variance = options_.edge_correlation * edge.bearing_stddev * edge.bearing_stddev;
   sight.jacobian = Eigen::VectorXd::Zero(state_.size());
   sight.jacobian.head<2>() = -across / range;
   sight.jacobian[2] = -across.dot(Across(arm)) / range - 1.0;
-  sight.jacobian[kYaw] = -1.0;
+  sight.jacobian[kYaw] = sight.jacobian[kImageTurn] = -1.0;
   sight.jacobian.segment<2>(IndexOf(track)) = across / range;
   return sight;
 }
@@ -251,7 +264,7 @@ void PoseFilter::LetShift(const ModelEdge& edge, int id) {
   Track& track = tracks_[id];
   track.bearing_stddev += kSmoothing * (edge.bearing_stddev - track.bearing_stddev);
   const Eigen::Vector2d along =
-      AlongSurface(edge, Direction(edge.bearing + camera_yaw() + map_from_base_.theta));
+      AlongSurface(edge, Direction(edge.bearing + view_yaw() + map_from_base_.theta));
   const double variance = ShiftVariance(track.bearing_stddev, along);
   const int i = IndexOf(id);
   covariance_.block<2, 2>(i, i) += std::abs(variance - track.shift_variance) * along.normalized() *
@@ -274,7 +287,7 @@ void PoseFilter::Begin(const ModelEdge& edge) {
   jacobian.leftCols<2>().setIdentity();
   jacobian(0, 2) = -arm.y();
   jacobian(1, 2) = arm.x();
-  jacobian.col(kYaw) = edge.range * across + edge.range_by_bearing * ray;
+  jacobian.col(kYaw) = jacobian.col(kImageTurn) = edge.range * across + edge.range_by_bearing * ray;
   const double along_variance =
       std::pow(edge.range_stddev, 2) + std::pow(options_.edges.surface_stddev, 2);
   const double across_variance =

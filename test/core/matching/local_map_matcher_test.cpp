@@ -171,6 +171,48 @@ TEST(LocalMapMatcher, FollowsEdgesAlongAPlainCorridor) {
   EXPECT_FALSE(outcome.degenerate);
 }
 
+TEST(LocalMapMatcher, CorrectsTheEdgesForATurnThatTheEncodersGotWrong) {
+  constexpr double kWrong =
+      0.005;  // what the encoders turned too far, between image and scan [rad]
+  const std::vector<RoomEdge> edges{{{2.0, 3.0}, 1}, {{3.5, 2.0}, -1}, {{3.5, -1.0}, 1}};
+  FusedModel model = SeenFrom(kOrigin);
+  model.edges = EdgesSeen(edges, kOrigin, 0.001);
+  LocalMapMatcher matcher = StartedAt(kOrigin);
+  matcher.Match(model, kOrigin, Predicted(Pose2()));
+  matcher.Match(model, kOrigin, Predicted(Pose2()));
+  ASSERT_EQ(matcher.filter().edges(), 3);
+  for (ModelEdge& edge : model.edges) {  // as the fusion brings them to the time of the scan
+    edge.time_offset = -0.1;
+    edge.bearing -= kWrong;
+  }
+  const MatchOutcome outcome = matcher.Match(model, kOrigin, Predicted({0.0, 0.0, kWrong}));
+  ASSERT_EQ(CountMatched(outcome.edges), 3);
+  for (const EdgeMatch& edge : outcome.edges) EXPECT_NEAR(edge.residual, 0.0, 0.05 * kWrong);
+}
+
+TEST(LocalMapMatcher, TellsWhatBecameOfEachEdge) {
+  std::vector<ModelEdge> edges =
+      EdgesSeen({{{1.0, 1.0}, 1}, {{1.9, 1.0}, -1}, {{0.6, -1.0}, 1}}, kOrigin, 0.001);
+  edges[0].weight = 0.01;
+  FusedModel model = ModelOf(PlainCorridor(), kOrigin, 1, TestLaser());
+  LocalMapMatcher matcher{LocalMapMatcherOptions()};
+  model.edges = {edges[0], edges[1]};
+  matcher.Start(model, kOrigin);
+  const auto uses = [&](const std::vector<ModelEdge>& seen) {
+    model.edges = seen;
+    std::vector<EdgeUse> told;
+    for (const EdgeMatch& e : matcher.Match(model, kOrigin, Predicted(Pose2())).edges) {
+      told.push_back(e.use);
+    }
+    return told;
+  };
+  const EdgeUse out = EdgeUse::kLeftOut;
+  EXPECT_EQ(uses({edges[0], edges[1]}), (std::vector<EdgeUse>{out, EdgeUse::kNew}));
+  EXPECT_EQ(uses({edges[2], edges[0], edges[1]}),
+            (std::vector<EdgeUse>{EdgeUse::kNew, out, EdgeUse::kMatched}));
+  EXPECT_EQ(uses({}), std::vector<EdgeUse>());
+}
+
 TEST(LocalMapMatcher, IsTheSameForBothSensesOfTheSweep) {
   const Pose2 motion{0.1, 0.0, 0.05};
   FusedModel reversed = SeenFrom(motion);

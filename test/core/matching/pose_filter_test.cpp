@@ -210,11 +210,74 @@ TEST(PoseFilter, AnEdgeOfTheOtherSignIsAnotherOne) {
   PoseFilter filter(Options());
   filter.Start(Pose2());
   Show({EdgeTo({2.0, 1.0}, Pose2(), 0.0, 1)}, &filter);
-  EXPECT_EQ(filter.AddEdges({EdgeTo({2.0, 1.0}, Pose2(), 0.0, -1)}), 0);
-  EXPECT_EQ(filter.AddEdges({EdgeTo({2.0, 1.0}, Pose2(), 0.0, -1)}), 0);
+  EXPECT_EQ(CountMatched(filter.AddEdges({EdgeTo({2.0, 1.0}, Pose2(), 0.0, -1)})), 0);
+  EXPECT_EQ(CountMatched(filter.AddEdges({EdgeTo({2.0, 1.0}, Pose2(), 0.0, -1)})), 0);
   EXPECT_EQ(filter.edges(), 2);
-  EXPECT_EQ(filter.AddEdges({EdgeTo({2.0, 1.0}, Pose2(), 0.0, 1)}), 1);
+  EXPECT_EQ(CountMatched(filter.AddEdges({EdgeTo({2.0, 1.0}, Pose2(), 0.0, 1)})), 1);
   EXPECT_EQ(filter.edges(), 2);
+}
+
+TEST(PoseFilter, ATurnOfAllEdgesAlikeIsNotTakenForOneOfTheBaseIfTheImageIsOfAnotherTime) {
+  constexpr double kTurn = 0.0005;  // [rad]
+  const auto turn_of_base = [&](double time_offset) {
+    PoseFilter filter(Options());
+    filter.Start(Pose2());
+    std::vector<ModelEdge> edges;
+    for (const Eigen::Vector2d& place :
+         {Eigen::Vector2d(2.0, 1.0), {3.0, 0.0}, {2.5, -1.0}, {1.5, 2.0}, {1.0, -2.0}}) {
+      edges.push_back(EdgeTo(place, Pose2()));
+    }
+    Show(edges, &filter);
+    filter.Predict(Pose2(), Forward(0.0), Noise(1e-5, 1e-5, 0.001));
+    for (ModelEdge& edge : edges) {
+      edge.time_offset = time_offset;
+      edge.bearing += kTurn;
+    }
+    filter.AddEdges(edges);
+    return filter.map_from_base().theta;
+  };
+  EXPECT_LT(turn_of_base(0.0), -0.8 * kTurn);
+  EXPECT_GT(turn_of_base(-0.2), -0.2 * kTurn);
+}
+
+TEST(PoseFilter, EachImageIsTurnedInItsOwnWay) {
+  constexpr double kTurn = 0.0005;  // [rad]
+  PoseFilter filter(Options());
+  filter.Start(Pose2());
+  std::vector<ModelEdge> edges = {EdgeTo({2.0, 1.0}, Pose2()), EdgeTo({3.0, 0.0}, Pose2()),
+                                  EdgeTo({2.5, -1.0}, Pose2())};
+  Show(edges, &filter);
+  for (ModelEdge& edge : edges) edge.time_offset = -0.2;
+  filter.Predict(Pose2(), Forward(0.0), Noise(1e-4, 1e-4, 1e-4));
+  for (int image = 0; image < 20; ++image) {
+    std::vector<ModelEdge> seen = edges;
+    const double turn = image % 2 == 0 ? kTurn : -kTurn;
+    for (ModelEdge& edge : seen) edge.bearing += turn;
+    for (const EdgeMatch& match : filter.AddEdges(seen)) {
+      EXPECT_EQ(match.use, EdgeUse::kMatched) << image;
+    }
+    EXPECT_NEAR(filter.map_from_base().theta, 0.0, 0.2 * kTurn) << image;
+  }
+  const std::vector<EdgeMatch> last = filter.AddEdges(edges);
+  EXPECT_NEAR(last.front().residual, 0.0, 0.3 * kTurn);
+}
+
+TEST(PoseFilter, TellsOfEachEdgeWhatItWasGoodFor) {
+  PoseFilter filter(Options());
+  filter.Start(Pose2());
+  const ModelEdge edge = EdgeTo({2.0, 0.0}, Pose2());
+  EXPECT_EQ(filter.AddEdges({edge}).front().use, EdgeUse::kNew) << "announced";
+  EXPECT_EQ(filter.AddEdges({edge}).front().use, EdgeUse::kNew) << "begun";
+  ModelEdge off = edge;
+  off.bearing += 0.04;  // 8 cm: within the gate, but not as wrong as anything can be
+  const std::vector<EdgeMatch> matches =
+      filter.AddEdges({EdgeTo({2.0, 3.0}, Pose2()), off, EdgeTo({2.0, 0.12}, Pose2())});
+  ASSERT_EQ(matches.size(), 3U);
+  EXPECT_EQ(matches[0].use, EdgeUse::kNew);
+  EXPECT_EQ(matches[1].use, EdgeUse::kRefused);
+  EXPECT_NEAR(matches[1].residual, 0.04, 1e-3);
+  EXPECT_EQ(matches[2].use, EdgeUse::kLeftOut) << "too near to the known one to be told from it";
+  EXPECT_EQ(filter.AddEdges({edge}).front().use, EdgeUse::kMatched);
 }
 
 TEST(PoseFilter, BetweenGateAndSeparationItIsNeitherKnownNorNew) {

@@ -37,6 +37,7 @@ struct ModelEdge {
   int sign = 0;                   ///< +1: darker on the left; -1: darker on the right
   double weight = 0.0;    ///< share of the region of interest that is vertical edge here [-]
   double contrast = 0.0;  ///< step at the edge [grey levels]
+  int id = 0;             ///< told by the matching: its place among the edges of its model
 
   Eigen::Vector2d point() const {
     return camera + range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));

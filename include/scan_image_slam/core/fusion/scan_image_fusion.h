@@ -43,6 +43,7 @@ struct FusionEvidence {
   SurfaceProfile profile;
   RegionOfInterest region;
   std::vector<ImageEdge> edges;  ///< in the bearing image
+  std::vector<int> in_model;     ///< their places among the model's; -1: on no clear surface
 };
 
 /// The first stage of the system: fuses a scan with the image nearest to it (section 2.1 of the

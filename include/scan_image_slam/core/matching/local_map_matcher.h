@@ -58,6 +58,8 @@ class LocalMapMatcher {
     std::vector<SurfacePoint> points;  ///< of the scan, corrected for its sweep
     int standing = 0;                  ///< of them, those on nothing that may walk
     Velocity2 sweep_correction;
+    /// Of the edges: over the time from the image to the scan the encoders' steps matter more.
+    Velocity2 edge_correction;
     SearchResult found;
     Refinement refined;
     bool ShowsAtLeast(double fraction) const {
@@ -74,8 +76,8 @@ class LocalMapMatcher {
   std::vector<ModelEdge> WithoutWalkers(std::vector<ModelEdge> edges,
                                         const std::vector<SurfacePoint>& points,
                                         const Pose2& map_from_base) const;
-  void Filter(const Refinement& scan, const std::vector<ModelEdge>& edges,
-              const Pose2& map_from_last, const MotionPrediction& prediction);
+  std::vector<EdgeMatch> Filter(const Alignment& alignment, std::vector<ModelEdge> edges,
+                                const Pose2& map_from_last, const MotionPrediction& prediction);
   bool EdgesHold() const;
   void ForgetOldSurroundings();
   void InsertIfMoved(const std::vector<SurfacePoint>& points, const Pose2& map_from_base);

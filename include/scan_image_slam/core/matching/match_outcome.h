@@ -1,6 +1,9 @@
 #pragma once
 
 #include "scan_image_slam/core/geometry/pose2.h"
+#include "scan_image_slam/core/matching/edge_match.h"
+
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -16,6 +19,7 @@ struct MatchOutcome {
   int candidates = 0;  ///< motions tried
   int points = 0;      ///< points of the scan
   int matched = 0;     ///< points that found a counterpart
+  std::vector<EdgeMatch> edges;  ///< of the model, in its order
   bool on_window_edge = false;
   bool too_few_points = false;  ///< the scan shows too little of what is known
   bool undecided = false;  ///< and the prediction is blind: nothing was learned, the motion is open

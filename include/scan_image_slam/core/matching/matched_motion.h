@@ -1,10 +1,12 @@
 #pragma once
 
 #include "scan_image_slam/core/geometry/pose2.h"
+#include "scan_image_slam/core/matching/edge_match.h"
 #include "scan_image_slam/core/matching/search_window.h"
 #include "scan_image_slam/core/sensor/stamp.h"
 
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -56,13 +58,14 @@ struct MatchedMotion {
                                                          ///< since the last scan [m, m, rad]
   MatchMode mode = MatchMode::kNoCamera;
   MatchStatus status = MatchStatus::kFirst;
-  SearchWindow window;       ///< D and Phi
-  ArcCoordinates deviation;  ///< of the result from the predicted motion
-  double e = 0.0;            ///< mean distance between the models at the best candidate [m]
-  double rms = 0.0;          ///< residual across the walls after refinement [m]
-  int candidates = 0;        ///< motions tried
-  int points = 0;            ///< hits of the scan
-  int matched = 0;           ///< hits that found a counterpart
+  SearchWindow window;           ///< D and Phi
+  ArcCoordinates deviation;      ///< of the result from the predicted motion
+  double e = 0.0;                ///< mean distance between the models at the best candidate [m]
+  double rms = 0.0;              ///< residual across the walls after refinement [m]
+  int candidates = 0;            ///< motions tried
+  int points = 0;                ///< hits of the scan
+  int matched = 0;               ///< hits that found a counterpart
+  std::vector<EdgeMatch> edges;  ///< of the model, in its order; empty: not looked at
   double degenerate_direction = 0.0;    ///< in the base frame, if status is kDegenerate [rad]
   Velocity2 sweep_correction;           ///< what the encoders were wrong by while the laser turned
   std::optional<Pose2> odom_from_base;  ///< what the encoders say at the stamp

@@ -3,6 +3,7 @@
 #include "scan_image_slam/core/fusion/fused_model.h"
 #include "scan_image_slam/core/geometry/pose2.h"
 #include "scan_image_slam/core/matching/edge_map.h"
+#include "scan_image_slam/core/matching/edge_match.h"
 #include "scan_image_slam/core/matching/motion_predictor.h"
 
 #include <cmath>
@@ -63,8 +64,8 @@ class PoseFilter {
   bool Contradicts(const std::vector<ModelEdge>& edges) const;
 
   /// Takes what an image tells, and begins edges that were near enough in an image before. Returns
-  /// how many were known.
-  int AddEdges(const std::vector<ModelEdge>& edges);
+  /// what became of each.
+  std::vector<EdgeMatch> AddEdges(const std::vector<ModelEdge>& edges);
 
   const Pose2& map_from_base() const { return map_from_base_; }
   /// Of (forward, left, turn) in the frame of the base [m, m, rad].
@@ -75,12 +76,16 @@ class PoseFilter {
  private:
   double scale() const { return state_[kScale]; }
   double camera_yaw() const { return state_[kYaw]; }
+  /// Of the view in the last image [rad].
+  double view_yaw() const { return state_[kYaw] + state_[kImageTurn]; }
 
-  // The state: the pose's error (x, y, turn in the map), the scale, the yaw, x and y of each edge.
-  // The pose itself is kept apart, so its three entries are always zero.
+  // The state: the pose's error (x, y, turn in the map), the scale, the yaw, the turn of the last
+  // image, x and y of each edge. The pose itself is kept apart, so its three entries are always
+  // zero.
   static constexpr int kScale = 3;
   static constexpr int kYaw = 4;
-  static constexpr int kFirstEdge = 5;
+  static constexpr int kImageTurn = 5;
+  static constexpr int kFirstEdge = 6;
 
   struct Track {
     int sign = 0;
@@ -109,6 +114,7 @@ class PoseFilter {
   Sight SightOf(const ModelEdge& edge, int track) const;
   double VarianceOf(const Sight& sight) const;
   void Update(double innovation, double variance, const Eigen::VectorXd& jacobian);
+  void BeginImage(double time_offset);
   void Welcome(const std::vector<const ModelEdge*>& unknown);
   bool WasMet(const ModelEdge& edge);
   void Begin(const ModelEdge& edge);
