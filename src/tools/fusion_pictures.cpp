@@ -40,8 +40,6 @@ void FusionPictures::AddToVideo(Stamp stamp, const cv::Mat& picture) {
       throw std::runtime_error("can't write the film " + options_.video +
                                ": its name must end with .avi, and its folder must be there");
     }
-    constexpr double kQuality = 75.0;  // of JPEG
-    video_.set(cv::VIDEOWRITER_PROP_QUALITY, kQuality);
     video_.write(first_picture_);
   }
   video_.write(picture);

@@ -100,9 +100,9 @@ MotionPrediction MotionPredictor::Predict(Stamp stamp) const {
     constexpr double kGap = 3.0;  // usual periods
     prediction.blind = !odometry_.empty() && dt > std::max(bounds.max_time, kGap * period_);
     // Though readings were lost around the last scan, those before and after tell most of the way.
-    const std::optional<Pose2> roughly_last = odometry_.ContinuousPose(*last_stamp_);
-    if (prediction.blind && continuous_from_base && roughly_last) {
-      prediction.motion = roughly_last->Inverse() * *continuous_from_base;
+    if (prediction.blind && continuous_from_base) {
+      const std::optional<Pose2> roughly_last = odometry_.ContinuousPose(*last_stamp_);
+      if (roughly_last) prediction.motion = roughly_last->Inverse() * *continuous_from_base;
     }
   }
   prediction.window = MakeWindow(prediction.motion, prediction.dt, bounds);
