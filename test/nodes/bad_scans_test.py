@@ -2,6 +2,9 @@
 """Bad scans in the middle of a drive: the nodes say why and go on, and good scans still match."""
 
 import math
+import os
+import re
+import struct
 import unittest
 
 import numpy
@@ -9,8 +12,9 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from live_support import (Recorder, cast, make_odometry, make_scan, publisher, room_scan,
-                          static_transforms, transform, wait_for, wait_subscribed)
+from live_support import (Console, Recorder, cast, make_odometry, make_scan, process_of,
+                          publisher, room_scan, static_transforms, transform, wait_for,
+                          wait_subscribed)
 from nav_msgs.msg import Odometry
 from pose_support import angle_difference, compose, yaw_of
 from scan_image_slam.msg import ScanMatch
@@ -18,6 +22,23 @@ from sensor_msgs.msg import LaserScan
 
 PERIOD = 0.025  # [s]
 STEP = (0.01, 0.0, 0.004)  # driven between two scans [m, m, rad]
+
+
+class ForgedScan(LaserScan):
+    """Claims to have as many ranges as the format can tell: 16 GiB of them."""
+
+    def serialize(self, buff):
+        super().serialize(buff)
+        ranges = 4 * len(self.ranges)  # [byte]; behind them comes the number of intensities
+        buff.seek(-(ranges + 8), os.SEEK_END)
+        buff.write(struct.pack('<I', 0xffffffff))
+        buff.seek(0, os.SEEK_END)
+
+
+def peak_memory(process):
+    """Of a process [byte]."""
+    with open(f'/proc/{process}/status') as status:
+        return 1024 * int(re.search(r'VmHWM:\s*(\d+) kB', status.read())[1])
 
 
 class BadScansTest(unittest.TestCase):
@@ -33,6 +54,7 @@ class BadScansTest(unittest.TestCase):
         cls.scan = publisher('scan', LaserScan)
         cls.odom = publisher('odom', Odometry)
         cls.diagnostics = Recorder('/diagnostics', DiagnosticArray)
+        cls.console = Console().wait_connected()
         cls.matches = Recorder('scan_match', ScanMatch).wait_connected()
         cls.poses = Recorder('pose', PoseWithCovarianceStamped).wait_connected()
         wait_for(lambda: cls.odom.get_num_connections() == 2, 'both readers of odom')
@@ -164,6 +186,21 @@ class BadScansTest(unittest.TestCase):
         poses = len(self.poses.messages)
         self.refuse(lambda t: room_scan(t + 30.0, self.pose), 'leaps ahead')
         self.assertEqual(len(self.poses.messages), poses + 6)
+
+    def test_a_scan_that_claims_to_be_longer_than_it_is(self):
+        self.expect_good(self.drive(3))
+        before = len(self.matches.messages)
+        scan = room_scan(self.time + PERIOD / 2, self.pose)
+        forged = ForgedScan()
+        forged.header, forged.ranges = scan.header, scan.ranges
+        for _ in range(3):
+            self.scan.publish(forged)
+        machine = os.sysconf('SC_PHYS_PAGES') * os.sysconf('SC_PAGE_SIZE')
+        node = '/scan_image_fusion'
+        self.console.said('Exception thrown when deserializing', node=node, count=3)
+        self.assertLess(peak_memory(process_of(node)), max(machine / 4, 2 ** 31) + 2 ** 29)
+        self.expect_good(self.drive(3))
+        self.assertEqual(len(self.matches.messages), before + 3)
 
     def test_time_that_goes_back_for_good(self):
         """More and more stale scans mean that a clock was set: everything starts over."""

@@ -205,6 +205,11 @@ def wait_subscribed(*publishers):
         wait_for(lambda one=one: one.get_num_connections() > 0, 'a subscriber of ' + one.name)
 
 
+def process_of(node):
+    """Its number."""
+    return ServerProxy(rospy.get_master().lookupNode(node)[2]).getPid('/test')[2]
+
+
 def static_transforms(*transforms):
     """The publisher must be kept, because it latches."""
     static = publisher('/tf_static', TFMessage, latch=True)

@@ -9,14 +9,14 @@ import signal
 import subprocess
 import threading
 import unittest
-from xmlrpc.client import ServerProxy
 
 import numpy
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from live_support import Console, Recorder, program, wait_for, yaw_quaternion
+from live_support import (Console, Recorder, process_of, program, wait_for,
+                          yaw_quaternion)
 from mapper_support import FIRST, PERIOD, Robot
 from nav_msgs.srv import GetMap
 from pose_support import angle_difference, compose, yaw_of
@@ -259,14 +259,12 @@ class MapperStateTest(unittest.TestCase):
             return (os.path.exists(path) and load(path).success and
                     self.known(self.get_map().map) == self.known(mine))
         wait_for(all_saved, 'the map to be saved')
-        node = ServerProxy(rospy.get_master().lookupNode('/saving/mapper')[2])
-        pid = node.getPid('/test')[2]
+        pid = process_of('/saving/mapper')
         os.kill(pid, signal.SIGKILL)
 
         def is_back():
             try:
-                uri = rospy.get_master().lookupNode('/saving/mapper')[2]
-                return ServerProxy(uri).getPid('/test')[2] != pid
+                return process_of('/saving/mapper') != pid
             except OSError:
                 return False
         wait_for(is_back, 'the mapper to be started again')

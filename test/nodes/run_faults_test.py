@@ -7,13 +7,12 @@ import os
 import signal
 import time
 import unittest
-from xmlrpc.client import ServerProxy
 
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
-from live_support import Console, Recorder, wait_for
+from live_support import Console, Recorder, process_of, wait_for
 from nav_msgs.msg import Odometry
 from pose_support import compared, off_by
 from scan_image_slam.msg import IcpModel, ScanMatch
@@ -75,10 +74,6 @@ class RunFaultsTest(unittest.TestCase):
         print(f'{what}: off by {1e3 * error:.1f} mm')
         self.assertLess(error, MAX_ERROR, what)
 
-    def pid(self, node):
-        uri = rospy.get_master().lookupNode(node)[2]
-        return ServerProxy(uri).getPid('/test')[2]
-
     def stop_and_start(self, topic):
         heard = len(self.console.messages)
         self.relays[topic].stop()
@@ -102,12 +97,12 @@ class RunFaultsTest(unittest.TestCase):
             wait_for(lambda: any(self.models.messages[count:]), 'images to be fused')
 
     def expect_another_process(self, node):
-        old = self.pid(node)
+        old = process_of(node)
         os.kill(old, signal.SIGKILL)
 
         def is_new():
             try:
-                return self.pid(node) != old
+                return process_of(node) != old
             except OSError:
                 return False
         wait_for(is_new, node + ' to be started again')
@@ -131,7 +126,7 @@ class RunFaultsTest(unittest.TestCase):
 
     def test_too_little_time(self):
         """A node that has its processor for 5 of 305 ms leaves out what it can't do, and says so."""
-        pid = self.pid('/bounded_icp')
+        pid = process_of('/bounded_icp')
         before = self.left_out()[0]
         end = time.monotonic() + 6.0
         while time.monotonic() < end:

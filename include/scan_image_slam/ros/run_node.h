@@ -1,8 +1,11 @@
 #pragma once
 
+#include "scan_image_slam/ros/memory_limit.h"
+
 #include <csignal>
 #include <exception>
 #include <memory>
+#include <new>
 
 #include <ros/console.h>
 #include <ros/init.h>
@@ -31,14 +34,16 @@ class InterruptLater {
 
 /// main() of a node: spins until it is shut down, by Ctrl-C or by SIGTERM, which roscpp leaves to
 /// the system and which then would save nothing. A wrong configuration ends it at once, with the
-/// reason and exit code 1.
+/// reason and exit code 1, and so does more memory than LimitMemory() allows.
 template <typename Node>
 int RunNode(int argc, char** argv, const char* name) {
   ros::init(argc, argv, name);
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   ros::NodeHandle node;
   ros::NodeHandle private_node("~");
+  std::size_t memory = 0;
   try {
+    memory = LimitMemory();
     std::unique_ptr<Node> instance;
     {
       const InterruptLater interrupt_later;
@@ -46,6 +51,9 @@ int RunNode(int argc, char** argv, const char* name) {
     }
     ros::spin();
     return 0;
+  } catch (const std::bad_alloc&) {
+    ROS_FATAL("more memory needed than the %zu MiB that a node may have", memory >> 20);
+    return 1;
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());
     return 1;

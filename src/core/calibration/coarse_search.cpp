@@ -19,8 +19,10 @@ Peak VoteForYaw(const CalibrationData& data, const std::vector<JumpSight>& sight
   const int half = static_cast<int>(std::ceil(options.yaw / options.yaw_step)) + kSmoothing;
   std::vector<double> votes(2 * half + 1, 0.0);
   for (const JumpSight& sight : sights) {
+    const Eigen::Vector2d to_jump = FromCamera(sight, data.camera, correction.data());
+    const double bearing = std::atan2(to_jump.y(), to_jump.x());
     for (const ViewedEdge& edge : data.views[sight.view].edges) {
-      const double residual = BearingResidual(sight, edge, data.camera, correction.data());
+      const double residual = NormalizeAngle(edge.bearing - bearing);
       const int bin = half - static_cast<int>(std::lround(residual / options.yaw_step));
       if (bin >= 0 && bin < static_cast<int>(votes.size())) votes[bin] += 1.0;
     }

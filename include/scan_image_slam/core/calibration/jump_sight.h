@@ -38,6 +38,20 @@ struct JumpSight {
 /// Views at whose time the pose is not known have none.
 std::vector<JumpSight> SightJumps(const CalibrationData& data, double time_offset);
 
+/// The discontinuity as seen from the camera, by a correction; along the axes of the base [m].
+template <typename T>
+Eigen::Matrix<T, 2, 1> FromCamera(const JumpSight& sight, const Eigen::Vector2d& camera,
+                                  const T* correction) {
+  using std::cos;
+  using std::sin;
+  const T dt = correction[kTime] - sight.time_offset;
+  const T turn = -sight.velocity.theta * dt;
+  const T x = sight.point.x() - sight.velocity.x * dt;
+  const T y = sight.point.y() - sight.velocity.y * dt;
+  return {cos(turn) * x - sin(turn) * y - (camera.x() + correction[kForward]),
+          sin(turn) * x + cos(turn) * y - (camera.y() + correction[kLeft])};
+}
+
 /// How far the picture's edge lies to the left of the discontinuity, seen from the camera, by a
 /// correction [rad].
 template <typename T>
@@ -46,19 +60,14 @@ T BearingResidual(const JumpSight& sight, const ViewedEdge& edge, const Eigen::V
   using std::atan2;
   using std::cos;
   using std::sin;
-  const T dt = correction[kTime] - sight.time_offset;
-  const T turn = -sight.velocity.theta * dt;
-  const T x = sight.point.x() - sight.velocity.x * dt;
-  const T y = sight.point.y() - sight.velocity.y * dt;
-  const T to_jump_x = cos(turn) * x - sin(turn) * y - (camera.x() + correction[kForward]);
-  const T to_jump_y = sin(turn) * x + cos(turn) * y - (camera.y() + correction[kLeft]);
+  const Eigen::Matrix<T, 2, 1> to_jump = FromCamera(sight, camera, correction);
   // A tilted camera sees what is above it in another bearing.
   const T tilt =
       correction[kTiltX] * std::cos(edge.bearing) + correction[kTiltY] * std::sin(edge.bearing);
   const T seen = edge.bearing - edge.slope * tilt + correction[kYaw] +
                  static_cast<double>(sight.side) * correction[kBorder];
-  return atan2(to_jump_x * sin(seen) - to_jump_y * cos(seen),
-               to_jump_x * cos(seen) + to_jump_y * sin(seen));
+  return atan2(to_jump.x() * sin(seen) - to_jump.y() * cos(seen),
+               to_jump.x() * cos(seen) + to_jump.y() * sin(seen));
 }
 
 /// A discontinuity and an edge of the same view that are taken for the same thing.
