@@ -1,5 +1,6 @@
 // A camera driver and the fusion as nodelets of one process: pixels aren't copied on their way.
 
+#include "spin_until.h"
 #include <scan_image_slam/IcpModel.h>
 
 #include <cmath>
@@ -81,10 +82,10 @@ class NodeletImagesTest : public testing::Test {
     mounts_.sendTransform({Mount("laser", false), Mount("camera", true)});
     ASSERT_TRUE(
         loader_.load("/scan_image_fusion", "scan_image_slam/ScanImageFusionNodelet", {}, {}));
-    while (ros::ok() && (image_.getNumSubscribers() == 0 || scan_.getNumSubscribers() == 0 ||
-                         info_.getNumSubscribers() == 0)) {
-      ros::WallDuration(0.01).sleep();
-    }
+    ASSERT_TRUE(SpinUntil([&] {
+      return image_.getNumSubscribers() > 0 && scan_.getNumSubscribers() > 0 &&
+             info_.getNumSubscribers() > 0;
+    }));
   }
 
   /// Sends scans and calibrations until a model shows that the picture was looked at.

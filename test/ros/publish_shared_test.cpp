@@ -1,25 +1,15 @@
 #include "scan_image_slam/ros/publish_shared.h"
 
+#include "spin_until.h"
 #include <scan_image_slam/IcpModel.h>
 
 #include <utility>
 
 #include <gtest/gtest.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 namespace scan_image_slam {
 namespace {
-
-/// Spins until the condition holds; false if it does not within ten seconds.
-template <typename Condition>
-bool SpinUntil(const Condition& condition) {
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(10.0);
-  while (!condition() && ros::WallTime::now() < deadline) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
-  }
-  return condition();
-}
 
 TEST(PublishShared, HandsTheDataToASubscriberOfTheSameProcessWithoutACopy) {
   ros::NodeHandle node;
