@@ -147,7 +147,16 @@ void BagInput::ChooseTopics(const BagTopics& topics) {
                    Join(TopicsOfType(kCameraInfoType)) +
                    " (choose one with --camera-info-topic, or use --no-images)");
   }
-  notes_.push_back("images: " + (image_topic_.empty() ? "none" : image_topic_));
+  notes_.push_back("images: " + (image_topic_.empty() ? NoImages() : image_topic_));
+}
+
+/// Says of which topic images could be used.
+std::string BagInput::NoImages() const {
+  std::vector<std::string> topics = TopicsOfType(kImageType);
+  const std::vector<std::string> compressed = TopicsOfType(kCompressedImageType);
+  topics.insert(topics.end(), compressed.begin(), compressed.end());
+  if (topics.empty()) return "none";
+  return "none; there are several topics of images, choose one with --image-topic: " + Join(topics);
 }
 
 void BagInput::ReadTransforms() {
@@ -191,10 +200,10 @@ void BagInput::ChooseBaseFrame() {
     notes_.push_back("base frame: " + driven + " (of " + odom_topic_ + "), as there is no " +
                      base_frame_);
     base_frame_ = driven;
-  } else if (odom_topic_.empty() && type_of_.count("/tf") == 0 &&
-             type_of_.count("/tf_static") == 0) {
+  } else if (type_of_.count("/tf") == 0 && type_of_.count("/tf_static") == 0) {
     notes_.push_back("base frame: " + laser_frame +
-                     " (of the scans), as there are neither encoders nor transforms");
+                     " (of the scans), as there are no transforms: the laser is taken to be at the "
+                     "base, looking forward (parameters scan_image_fusion/laser/...)");
     base_frame_ = laser_frame;
   }
 }

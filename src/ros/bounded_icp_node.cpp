@@ -63,7 +63,7 @@ BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_nod
                                      ros::TransportHints().tcpNoDelay());
   watch_.Expect(model_subscriber_, "scan_image_slam/IcpModel", false);
   watch_.AddValue("last match", [this] { return StatusText(last_match_.status); });
-  watch_.AddValue("mode", [this] { return ModeName(last_match_.mode); });
+  watch_.AddValue("mode", [this] { return ModeName(Mode()); });
   watch_.AddValue("matches", [this] { return std::to_string(matches_); });
   watch_.AddValue("window edge hits", [this] { return std::to_string(window_edge_hits_); });
   watch_.AddValue("encoder scale",
@@ -140,12 +140,20 @@ void BoundedIcpNode::ReleaseModels() {
 
 void BoundedIcpNode::Publish(const MatchedMotion& match) {
   last_match_ = match;
+  matched_ = ros::WallTime::now();
   ++matches_;
   if (match.status == MatchStatus::kOnWindowEdge) ++window_edge_hits_;
   CheckMatching();
   CheckCalibration();
   PublishShared(match_publisher_, ToMessage(match, options_.node.odometry.base_frame));
   if (window_publisher_.getNumSubscribers() > 0) PublishWindow(match);
+}
+
+/// Without scans the pose rests on what else there is.
+MatchMode BoundedIcpNode::Mode() const {
+  constexpr double kLaserGap = 0.5;  // [s]
+  const bool gap = (ros::WallTime::now() - matched_).toSec() > kLaserGap;
+  return gap ? MatchMode::kCoasting : last_match_.mode;
 }
 
 /// A moment is nothing to be told; it is if it lasts.

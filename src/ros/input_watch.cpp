@@ -18,6 +18,7 @@ constexpr double kDiagnosePeriod = 1.0;  // [s]
 constexpr double kSilence = 2.0;         // after which a topic counts as gone [s]
 constexpr double kMaxWait = 0.2;         // of a message for its turn [s]
 constexpr double kMaxClockOffset = 0.1;  // of a topic against another [s]
+constexpr double kMaxAge = 1.0;  // of stamps by the clock of this machine, or their lead [s]
 
 }  // namespace
 
@@ -53,8 +54,8 @@ void InputWatch::Arrived(const std::string& topic, std::uint64_t measured, std::
   Topic& t = topics_[topic];
   ++t.messages;
   t.last = ros::WallTime::now();
-  if (measured != 0) {
-    const auto now = static_cast<double>(ros::Time::now().toNSec());
+  const auto now = static_cast<double>(ros::Time::now().toNSec());
+  if (measured != 0 && now > 0.0) {  // simulated time has begun
     const double delay = 1e-9 * (now - static_cast<double>(measured));
     t.delay = std::min(t.delay.value_or(delay), delay);
   }
@@ -149,6 +150,20 @@ std::string InputWatch::DescribeClock(double offset, const std::string& main) {
          "way";
 }
 
+/// `age`: of stamps by the clock of this machine [s]. Transforms are stamped by it, so that other
+/// programs find none at stamps of another time.
+std::string InputWatch::DescribeAge(double age) {
+  constexpr double kRecorded = 60.0;  // [s]
+  const std::string text = "its stamps are " + NumberText(std::abs(age), 1) + " s " +
+                           (age > 0.0 ? "older" : "newer") + " than the time here: ";
+  if (age > kRecorded && !ros::Time::isSimTime()) {
+    return text +
+           "is a bag played? Then set use_sim_time to true before the nodes are started, and play "
+           "it with --clock";
+  }
+  return text + "the clocks of the machines differ (chrony mends that)";
+}
+
 /// Whether the stamps of all topics are of one clock, by those that came since the last look.
 void InputWatch::CompareClocks() {
   constexpr int kSure = 2;  // looks; one may fall on a moment at which the clock was set
@@ -159,13 +174,14 @@ void InputWatch::CompareClocks() {
   for (auto& [name, topic] : topics_) {
     const std::optional<double> delay = std::exchange(topic.delay, std::nullopt);
     if (!delay || !main_delay) continue;
+    const bool is_main = name == main->first;
+    const double offset = is_main ? *delay : *delay - *main_delay;
     const std::string key = "clock of " + name;
-    const double offset = *delay - *main_delay;
-    if (std::abs(offset) <= kMaxClockOffset) {
+    if (std::abs(offset) <= (is_main ? kMaxAge : kMaxClockOffset)) {
       topic.odd_clock = 0;
       SetProblem(key, "");
     } else if (++topic.odd_clock >= kSure) {
-      SetProblem(key, DescribeClock(offset, main->first));
+      SetProblem(key, is_main ? DescribeAge(offset) : DescribeClock(offset, main->first));
     }
   }
 }

@@ -29,7 +29,8 @@ std::size_t LimitMemory() {
   const std::size_t quarter = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) / 4 * page;
   rlimit limit{};
   getrlimit(RLIMIT_DATA, &limit);
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, PagesOfData() * page + std::max(quarter, kLeast));
+  limit.rlim_cur =
+      std::min<rlim_t>(limit.rlim_max, PagesOfData() * page + std::max(quarter, kLeast));
   if (setrlimit(RLIMIT_DATA, &limit) != 0) {
     throw std::system_error(errno, std::generic_category(), "setrlimit(RLIMIT_DATA)");
   }

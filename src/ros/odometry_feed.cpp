@@ -1,6 +1,7 @@
 #include "scan_image_slam/ros/odometry_feed.h"
 
 #include "scan_image_slam/ros/sensor_conversions.h"
+#include "scan_image_slam/ros/sensor_frames.h"
 
 #include <stdexcept>
 #include <utility>
@@ -12,17 +13,23 @@ namespace {
 
 constexpr double kPollPeriod = 0.01;           // of the transform [s]
 constexpr double kTopicSilence = 1.0;          // after which TF is looked at [s]
+constexpr double kTransformSilence = 2.0;      // after which it is told [s]
 constexpr std::uint32_t kReadingQueue = 1000;  // small; a late node shall hear of all its gap
 
 }  // namespace
 
 OdometryFeed::OdometryFeed(ros::NodeHandle node, const OdometryInput& input,
                            const tf2_ros::Buffer* tf, InputWatch* watch, OnPose on_pose)
-    : input_(input), tf_(tf), watch_(watch), on_pose_(std::move(on_pose)) {
+    : input_(input),
+      tf_(tf),
+      watch_(watch),
+      on_pose_(std::move(on_pose)),
+      by_transform_(input.source == OdometrySource::kTf),
+      last_change_(ros::WallTime::now()) {
   if (input_.source == OdometrySource::kAuto || input_.source == OdometrySource::kTopic) {
     subscriber_ = node.subscribe("odom", kReadingQueue, &OdometryFeed::OnOdometry, this,
                                  ros::TransportHints().tcpNoDelay());
-    watch_->Expect(subscriber_, "nav_msgs/Odometry", true);
+    ExpectTopic();
   }
   if (input_.source == OdometrySource::kAuto || input_.source == OdometrySource::kTf) {
     timer_ = node.createWallTimer(ros::WallDuration(kPollPeriod),
@@ -30,7 +37,10 @@ OdometryFeed::OdometryFeed(ros::NodeHandle node, const OdometryInput& input,
   }
 }
 
+void OdometryFeed::ExpectTopic() { watch_->Expect(subscriber_, "nav_msgs/Odometry", true); }
+
 void OdometryFeed::OnOdometry(const nav_msgs::OdometryConstPtr& message) {
+  if (std::exchange(by_transform_, false)) ExpectTopic();
   watch_->Arrived(subscriber_.getTopic(), message->header.stamp.toNSec());
   last_message_ = ros::WallTime::now();
   try {
@@ -45,14 +55,33 @@ void OdometryFeed::PollTransform() {
   try {
     const geometry_msgs::TransformStamped transform = tf_->lookupTransform(
         StripSlash(input_.odom_frame), StripSlash(input_.base_frame), ros::Time(0));
-    if (transform.header.stamp == last_transform_) return;
-    last_transform_ = transform.header.stamp;
-    on_pose_(ToStamp(transform.header.stamp), ToPose2(ToIsometry(transform.transform)));
+    if (transform.header.stamp != last_transform_) {
+      last_transform_ = transform.header.stamp;
+      last_change_ = ros::WallTime::now();
+      if (!by_transform_ && last_message_.isZero()) {  // nobody needs the topic
+        watch_->Forget(subscriber_.getTopic());
+        by_transform_ = true;
+      }
+      on_pose_(ToStamp(transform.header.stamp), ToPose2(ToIsometry(transform.transform)));
+    }
   } catch (const tf2::TransformException&) {
-    // Not there yet: the node runs without encoders until it is, and says so.
+    // Not there yet: the node runs without encoders until it is.
   } catch (const std::invalid_argument& error) {
     watch_->Refuse(input_.odom_frame + " -> " + input_.base_frame, error.what());
   }
+  if (by_transform_) WatchTransform();
+}
+
+void OdometryFeed::WatchTransform() {
+  std::string problem;
+  if ((ros::WallTime::now() - last_change_).toSec() > kTransformSilence) {
+    problem = LookUpSensor(*tf_, input_.odom_frame, input_.base_frame).problem;
+    if (problem.empty()) {
+      problem = "no new transform " + input_.odom_frame + " -> " + input_.base_frame + " has come";
+    }
+    problem += "; until there is one the pose goes on without encoders";
+  }
+  watch_->SetProblem("encoders", problem);
 }
 
 }  // namespace scan_image_slam

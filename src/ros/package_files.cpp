@@ -1,6 +1,7 @@
 #include "scan_image_slam/ros/package_files.h"
 
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 namespace scan_image_slam {
@@ -24,8 +25,19 @@ std::string FindWorld(const std::string& world) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(world, ignored)) return world;
   if (world.find('/') != std::string::npos) throw std::runtime_error(world + " does not exist");
-  const bool has_ending = std::filesystem::path(world).extension() == ".yaml";
-  return PackageFile("config/worlds/" + world + (has_ending ? "" : ".yaml"));
+  const std::filesystem::path folder =
+      std::filesystem::path(PackageFile("config/worlds/laboratory.yaml")).parent_path();
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::filesystem::path& path = entry.path();
+    if (path.extension() != ".yaml") continue;
+    if (path.stem() == world || path.filename() == world) return path.string();
+    names.insert(path.stem().string());
+  }
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  throw std::runtime_error("there is no world " + world + "; there are " + all +
+                           ", or give the path of a file");
 }
 
 }  // namespace scan_image_slam

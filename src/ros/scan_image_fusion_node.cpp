@@ -315,6 +315,7 @@ void ScanImageFusionNode::PublishPicture(const MatchedMotion* match) {
   const FusedModel model = *std::exchange(to_draw_, std::nullopt);
   cv_bridge::CvImage picture;
   picture.header.stamp = ToRosTime(fusion_.evidence().image.stamp);
+  picture.header.frame_id = camera_mount_.sensor_frame();
   picture.encoding = "bgr8";
   picture.image = DrawFusion(fusion_, model, match);
   picture_publisher_.publish(picture.toImageMsg());

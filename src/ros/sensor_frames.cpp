@@ -18,10 +18,10 @@ std::string DescribeTree(const tf2::BufferCore& tf, const std::string& wanted) {
   std::sort(frames.begin(), frames.end());
   std::string text = "; TF holds ";
   for (std::size_t i = 0; i < frames.size(); ++i) text += (i == 0 ? "" : ", ") + frames[i];
-  if (std::find(frames.begin(), frames.end(), wanted) == frames.end()) {
-    text += "; did you mean " + MostSimilar(wanted, frames) + " instead of " + wanted + "?";
-  }
-  return text;
+  if (std::find(frames.begin(), frames.end(), wanted) != frames.end()) return text;
+  const std::string similar = MostSimilar(wanted, frames);
+  if (!IsSimilar(wanted, similar)) return text;
+  return text + "; did you mean " + similar + " instead of " + wanted + "?";
 }
 
 }  // namespace

@@ -231,14 +231,14 @@ int Main(int argc, char** argv) {
       "Measures running nodes: time from each scan to its pose, scans without a pose, "
       "processor time and memory of the nodes. Needs the master; remappings as for nodes.");
   app.add_option("--duration", arguments.duration, "[s]; without it, until it is stopped")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.1, 1e9));
   app.add_option("--json", arguments.json,
                  "file for the same in JSON and that of each period, written every period");
   app.add_option("--period", arguments.period, "between two looks at the processes [s]")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
   app.add_option("--wait", arguments.wait, "longest wait for the first pose [s]")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(0.1, 1e9))
       ->capture_default_str();
   app.add_option("--scan-topic", arguments.scan_topic)->capture_default_str();
   app.add_option("--pose-topic", arguments.pose_topic)->capture_default_str();

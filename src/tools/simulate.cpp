@@ -8,8 +8,10 @@
 #include "scan_image_slam/ros/sensor_conversions.h"
 #include "scan_image_slam/ros/simulation_messages.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
@@ -37,7 +39,7 @@ void Declare(CLI::App& app, Arguments& a) {
       ->required();
   app.add_option("--out", a.out, "bag to write; the truth goes beside it as .gt.tum")->required();
   app.add_option("--seed", a.options.seed, "of all random numbers")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
       ->capture_default_str();
   app.add_option("--duration", a.duration, "length [s]; without it, until the path is driven")
       ->check(CLI::Range(0.1, 1e5));

@@ -138,12 +138,12 @@ std::vector<Pose2> EncoderPathInMap(const Run& run) {
 void MakeFolder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  const std::string probe = path + "/report.json";
-  std::ofstream file(probe);
-  if (error || !file) {
+  const std::string probe = path + "/.slam_offline";
+  if (error || !std::ofstream(probe)) {
     throw std::runtime_error("can't write into " + path + ": " +
                              (error ? error.message() : std::strerror(errno)));
   }
+  std::filesystem::remove(probe);
 }
 
 void WriteResults(const Arguments& arguments, const Run& run, const Trajectory& final_trajectory,
@@ -236,7 +236,7 @@ int Main(int argc, char** argv) {
   app.add_option("--fusion-images", arguments.pictures.every,
                  "write what the fusion sees, fusion_000001.png, for every so many images; 0: none")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   app.add_option("--video", arguments.pictures.video,
                  "write what the fusion sees of all images as a film, FILE.avi");
   app.add_option("--threads", arguments.threads, "threads of the image processing")

@@ -14,6 +14,7 @@ from live_support import (START, Console, Recorder, make_odometry, program, publ
 from nav_msgs.msg import Odometry
 from scan_image_slam.msg import IcpModel
 from sensor_msgs.msg import LaserScan
+from tf2_msgs.msg import TFMessage
 
 
 class MissingInputsTest(unittest.TestCase):
@@ -95,6 +96,50 @@ class MissingInputsTest(unittest.TestCase):
             self.console.said('use_sim_time', '/clock', node='/clockless', count=2)
         finally:
             rospy.delete_param('/use_sim_time')
+
+    def test_a_recording_that_is_played_by_the_clock_of_today(self):
+        self.start('scan_image_fusion', '__name:=late_fusion', 'scan:=late/scan')
+        scan = publisher('late/scan', LaserScan)
+        wait_subscribed(scan)
+        time = [START]
+
+        def told():
+            time[0] += 0.05
+            scan.publish(room_scan(time[0]))
+            rospy.sleep(0.05)
+            return self.console.found('clock of /late/scan', 'is a bag played?', 'use_sim_time',
+                                      node='/late_fusion')
+        wait_for(told, 'the age of the stamps to be told')
+
+    def test_the_transform_of_encoders(self):
+        self.start('bounded_icp', '__name:=wheel_icp', '_odom_source:=tf', '_odom_frame:=wheels')
+        self.console.said('encoders: no transform wheels -> base_link', node='/wheel_icp', count=2)
+        self.drive_by_transforms('wheels', lambda: self.console.found(
+            'encoders: all right now', node='/wheel_icp'))
+        self.console.said('encoders: no new transform wheels -> base_link', node='/wheel_icp')
+
+    def test_encoders_by_a_transform_need_no_topic(self):
+        self.start('bounded_icp', '__name:=tf_icp', 'odom:=nobody/odom', '_odom_frame:=tf_odom')
+        self.console.said('waiting for topic /nobody/odom', node='/tf_icp')
+        diagnostics = Recorder('/diagnostics', DiagnosticArray)
+
+        def silent():
+            status = [s for m in diagnostics.messages[-20:] for s in m.status if 'tf_icp' in s.name]
+            return status and '/nobody/odom' not in status[-1].message
+        self.drive_by_transforms('tf_odom', silent)
+
+    def drive_by_transforms(self, frame, until):
+        encoders = publisher('/tf', TFMessage)
+        wait_subscribed(encoders)
+        time = [START]
+
+        def drive():
+            time[0] += 0.05
+            encoders.publish([transform(frame, 'base_link', stamp=time[0])])
+            rospy.sleep(0.05)
+            return until()
+        wait_for(drive, 'the encoders of ' + frame)
+        encoders.unregister()
 
     def test_a_transform_until_it_is_there(self):
         self.start('scan_image_fusion', '__name:=blind_fusion', 'icp_model:=blind/icp_model',

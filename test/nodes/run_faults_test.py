@@ -83,7 +83,11 @@ class RunFaultsTest(unittest.TestCase):
         self.expect_right_again(topic + ' back')
 
     def test_scans_stop_and_come_back(self):
+        heard = len(self.diagnostics.messages)
         self.stop_and_start('scan')
+        modes = [value.value for m in self.diagnostics.messages[heard:] for status in m.status
+                 if 'bounded_icp' in status.name for value in status.values if value.key == 'mode']
+        self.assertIn('coasting', modes)
 
     def test_encoders_stop_and_come_back(self):
         self.stop_and_start('odom')

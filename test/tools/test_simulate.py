@@ -58,9 +58,9 @@ class Simulate(ToolTest):
             self.assertEqual(image.encoding, encoding)
             self.assertEqual(len(image.data), image.step * image.height)
 
-    def test_unknown_world_names_the_file(self):
+    def test_unknown_world_lists_those_there_are(self):
         result = run("simulate", "--world", "atlantis", "--out", self.path("x.bag"))
-        self.expect(result, 2, "atlantis.yaml")
+        self.expect(result, 2, "atlantis", "corridor_dark, ", "laboratory, ", "path of a file")
         result = run("simulate", "--world", "/none/x.yaml", "--out", self.path("x.bag"))
         self.expect(result, 2, "/none/x.yaml")
         self.assertFalse(os.path.exists(self.path("x.bag")))

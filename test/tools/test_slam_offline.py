@@ -183,6 +183,12 @@ class SlamOffline(ToolTest):
             self.assertEqual(read(self.path("out", name), "rb"),
                              read(self.path("without", name), "rb"))
 
+    def test_scan_and_odometry_alone(self):
+        bag = copy_bag(self.bag, self.path("bare.bag"), lambda topic, _: topic in ("/scan", "/odom"))
+        self.slam(bag)
+        self.assertGreater(self.report()["modes"]["no_camera_s"], 1.0)
+        self.assertEqual(len(read_tum(self.path("out", "encoder.tum"))), self.report()["scans"])
+
     def test_odometry_from_transforms(self):
         wanted = ("/scan", "/tf", "/tf_static")
         bag = copy_bag(self.bag, self.path("tf.bag"), lambda topic, _: topic in wanted)

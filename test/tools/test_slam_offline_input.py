@@ -2,6 +2,7 @@
 import os
 import unittest
 
+import rosbag
 from tools import ToolTest, copy_bag, read, run
 
 
@@ -105,7 +106,40 @@ class Input(ToolTest):
         self.refused(self.bag, "/eye", arguments=["--image-topic", "/eye"])
 
     def test_without_transforms(self):
-        self.refused(self.without("/tf", "/tf_static"), "laser", "base_link", "--base-frame")
+        bag = self.without("/tf", "/tf_static")
+        self.refused(bag, "no transform laser -> camera_optical_frame", "--no-images")
+        self.expect(self.slam(bag, "--no-images"), 0, "taken to be at the base")
+
+    def test_without_the_laser_transform(self):
+        def keep(topic, message):
+            if topic == "/tf_static":
+                message.transforms = [t for t in message.transforms if t.child_frame_id != "laser"]
+            return True
+
+        bag = copy_bag(self.bag, self.path("deaf.bag"), keep)
+        self.refused(bag, "no transform base_link -> laser", "--base-frame")
+
+    def test_images_of_two_cameras(self):
+        bag = copy_bag(self.bag, self.path("eyes.bag"),
+                       lambda topic, _: topic != "/image_raw/compressed")
+        with rosbag.Bag(bag, "a") as eyes, rosbag.Bag(self.bag) as one:
+            for _, message, time in one.read_messages(topics=["/image_raw/compressed"]):
+                eyes.write("/left", message, time)
+                eyes.write("/right", message, time)
+        self.expect(self.slam(bag), 0, "images: none", "--image-topic", "/left", "/right")
+
+    def test_a_run_that_fails_leaves_the_results_of_the_last(self):
+        self.expect(self.slam(self.bag), 0)
+        report = read(self.path("out", "report.json"))
+
+        def blind(topic, message):
+            if topic == "/scan":
+                message.ranges = []
+            return True
+
+        bag = copy_bag(self.bag, self.path("blind.bag"), blind)
+        self.expect(self.slam(bag), 2, "no scan could be used")
+        self.assertEqual(read(self.path("out", "report.json")), report)
 
     def test_without_the_camera_transform(self):
         def keep(topic, message):

@@ -78,6 +78,7 @@ class BagInput {
   void ChooseTopics(const BagTopics& topics);
   std::string Choose(const std::string& wanted, const std::string& usual, const std::string& type,
                      const std::string& option) const;
+  std::string NoImages() const;
   void ReadTransforms();
   void ChooseBaseFrame();
   void CheckFrames();

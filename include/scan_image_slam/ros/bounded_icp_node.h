@@ -41,6 +41,7 @@ class BoundedIcpNode {
   void OnCommand(const std_msgs::StringConstPtr& message);
   void ReleaseModels();
   void Publish(const MatchedMotion& match);
+  MatchMode Mode() const;
   void CheckMatching();
   void CheckCalibration();
   void PublishWindow(const MatchedMotion& match);
@@ -55,6 +56,7 @@ class BoundedIcpNode {
   TimeGuard time_guard_;
   BusyTime match_time_;
   MatchedMotion last_match_;
+  ros::WallTime matched_;           ///< of the last match
   std::optional<Stamp> odd_since_;  ///< of the first of the matches in a row that are none
   int window_edge_hits_ = 0;
   int matches_ = 0;

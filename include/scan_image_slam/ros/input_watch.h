@@ -27,9 +27,12 @@ class InputWatch {
   /// The same for subscribers of other kinds; `publishers` counts those of the topic.
   void Expect(const std::string& topic, std::function<std::uint32_t()> publishers,
               const std::string& type, bool optional);
+  /// The topic need not come any more.
+  void Forget(const std::string& topic) { topics_.erase(topic); }
   /// A message has come on a topic (its resolved name), of something measured at `measured` [ns],
-  /// whatever the sender says; 0: it says nothing. Clocks that disagree are told by it: topics
-  /// whose messages come with stamps of another time than those of the topic that is not optional.
+  /// whatever the sender says; 0: it says nothing. Clocks that disagree are told by it: the topic
+  /// that is not optional if its stamps are of another time than that of this machine, others if
+  /// they are of another time than its.
   /// By the numbers that roscpp and rospy give to messages with a header, `seq`, those that were
   /// lost on their way are counted and told; 0: the message has no number, as between nodelets.
   void Arrived(const std::string& topic, std::uint64_t measured, std::uint32_t seq = 0);
@@ -71,6 +74,7 @@ class InputWatch {
   static std::string DescribeTopic(const std::string& name, const Topic& topic);
   static std::string DescribeCrowd(const std::string& name, const Topic& topic);
   static std::string DescribeLoss(const std::string& name, const Topic& topic);
+  static std::string DescribeAge(double age);
   static std::string DescribeClock(double offset, const std::string& main);
   void CompareClocks();
   void Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -22,8 +22,10 @@ class OdometryFeed {
                InputWatch* watch, OnPose on_pose);
 
  private:
+  void ExpectTopic();
   void OnOdometry(const nav_msgs::OdometryConstPtr& message);
   void PollTransform();
+  void WatchTransform();
 
   OdometryInput input_;
   const tf2_ros::Buffer* tf_;
@@ -32,7 +34,9 @@ class OdometryFeed {
   ros::Subscriber subscriber_;
   ros::WallTimer timer_;
   ros::WallTime last_message_;
+  bool by_transform_;  ///< not by a topic
   ros::Time last_transform_;
+  ros::WallTime last_change_;  ///< of the transform
 };
 
 }  // namespace scan_image_slam

@@ -26,6 +26,7 @@ class SensorMount {
   bool Update(const std::string& sensor_frame);
   bool changed() const { return changed_; }
   const Eigen::Isometry3d& base_from_sensor() const { return *base_from_sensor_; }
+  const std::string& sensor_frame() const { return sensor_frame_; }
 
  private:
   void Publish() const;

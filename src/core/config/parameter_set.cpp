@@ -1,5 +1,6 @@
 #include "scan_image_slam/core/config/parameter_set.h"
 
+#include "scan_image_slam/core/config/foreign_names.h"
 #include "scan_image_slam/core/config/text_similarity.h"
 
 #include <algorithm>
@@ -153,6 +154,9 @@ const Parameter& ParameterSet::Get(const std::string& name) const {
   const auto found = std::find_if(parameters_.begin(), parameters_.end(),
                                   [&](const Parameter& p) { return p.name == name; });
   if (found != parameters_.end()) return *found;
+  if (const ForeignName* foreign = FindForeignName(name)) {
+    throw ParameterError(FullName(name) + ": " + Explain(*foreign));
+  }
   std::vector<std::string> names;
   for (const Parameter& p : parameters_) names.push_back(p.name);
   throw ParameterError(FullName(name) + ": unknown parameter" +

@@ -33,4 +33,10 @@ std::string MostSimilar(const std::string& word, const std::vector<std::string>&
                            });
 }
 
+bool IsSimilar(const std::string& a, const std::string& b) {
+  constexpr double kMostEdits = 0.6;  // per letter of the longer word
+  return static_cast<double>(EditDistance(a, b)) <
+         kMostEdits * static_cast<double>(std::max(a.size(), b.size()));
+}
+
 }  // namespace scan_image_slam

@@ -158,6 +158,11 @@ TEST_F(ParameterSetTest, AnUnknownNameIsToldWithTheMostSimilarOne) {
             "painter/color: unknown parameter, did you mean colour?");
 }
 
+TEST_F(ParameterSetTest, ANameOfAnotherPackageIsExplained) {
+  EXPECT_EQ(ErrorOf("delta", 0.1),
+            "painter/delta: a parameter of gmapping, not used; use mapper/resolution");
+}
+
 TEST_F(ParameterSetTest, WithoutParametersNothingIsSuggested) {
   set_ = ParameterSet("idle");
   EXPECT_EQ(ErrorOf("x", 1), "idle/x: unknown parameter");

@@ -42,5 +42,12 @@ TEST(MostSimilar, EmptyWordsAreWords) {
   EXPECT_EQ(MostSimilar("a", {"", "bcd"}), "");
 }
 
+TEST(IsSimilar, IsTrueForNamesThatMayBeMeant) {
+  EXPECT_TRUE(IsSimilar("lazer", "laser"));
+  EXPECT_TRUE(IsSimilar("laser", "laser_link"));
+  EXPECT_TRUE(IsSimilar("base_link", "base_footprint"));
+  EXPECT_FALSE(IsSimilar("camera_optical_frame", "base_link"));
+}
+
 }  // namespace
 }  // namespace scan_image_slam

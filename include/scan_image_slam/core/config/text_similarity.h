@@ -9,4 +9,7 @@ namespace scan_image_slam {
 /// `word`; the first of several. `words` must not be empty.
 std::string MostSimilar(const std::string& word, const std::vector<std::string>& words);
 
+/// True if one may well have been meant by the other.
+bool IsSimilar(const std::string& a, const std::string& b);
+
 }  // namespace scan_image_slam
