@@ -286,7 +286,11 @@ void BagInput::PlayScan(const rosbag::MessageInstance& message, SlamPipeline* pi
 void BagInput::PlayOdometry(const rosbag::MessageInstance& message, SlamPipeline* pipeline) {
   const auto odometry = ReadMessage<nav_msgs::Odometry>(message);
   if (odometry == nullptr) return;
-  pipeline->AddOdometry(ToStamp(odometry->header.stamp), ToPose2(odometry->pose.pose),
+  // It may tell the pose of another of the base's frames; unknown ones are taken for the base.
+  const std::string child = StripSlash(odometry->child_frame_id);
+  const FrameLookup child_from_base = LookUpSensor(*mounts_, child, base_frame_);
+  pipeline->AddOdometry(ToStamp(odometry->header.stamp),
+                        ToPose2(odometry->pose.pose) * ToPose2(child_from_base.base_from_sensor),
                         static_cast<Stamp>(message.getTime().toNSec()));
 }
 

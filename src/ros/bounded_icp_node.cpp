@@ -93,11 +93,14 @@ void BoundedIcpNode::OnOdometry(Stamp stamp, const Pose2& odom_from_base) {
 }
 
 void BoundedIcpNode::OnCommand(const std_msgs::StringConstPtr& message) {
-  if (message->data == "reset") StartOver("reset by command");
+  if (message->data != "reset") return;
+  ROS_WARN("reset by command: starting over");
+  bounded_icp_.BeginAnew();
+  odd_since_.reset();
 }
 
-void BoundedIcpNode::StartOver(const char* reason) {
-  ROS_WARN_STREAM(reason << ": starting over");
+void BoundedIcpNode::StartOver() {
+  ROS_WARN("time went back: starting over");
   bounded_icp_.Reset();
   gate_.Clear();
   odd_since_.reset();
@@ -110,14 +113,14 @@ void BoundedIcpNode::OnModel(const ros::MessageEvent<const IcpModel>& event) {
   if (!watch_.InTime(topic, event.getReceiptTime())) return;
   try {
     FusedModel model = FromMessage(*message);
-    switch (time_guard_.Check(model.stamp)) {
+    switch (time_guard_.Check(model.stamp, ClockNow(), ros::Time::isSimTime())) {
       case TimeGuard::Verdict::kStale:
         throw std::invalid_argument("its stamp is not later than that of the model before");
       case TimeGuard::Verdict::kAhead:
         throw std::invalid_argument(
             "its stamp leaps ahead of the clock: set the clock of the machine it comes from");
       case TimeGuard::Verdict::kRestarts:
-        StartOver("time went back");
+        StartOver();
         break;
       case TimeGuard::Verdict::kAdvances:
         break;

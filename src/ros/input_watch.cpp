@@ -3,6 +3,7 @@
 #include "scan_image_slam/core/recording/number_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -19,6 +20,14 @@ constexpr double kSilence = 2.0;         // after which a topic counts as gone [
 constexpr double kMaxWait = 0.2;         // of a message for its turn [s]
 constexpr double kMaxClockOffset = 0.1;  // of a topic against another [s]
 constexpr double kMaxAge = 1.0;  // of stamps by the clock of this machine, or their lead [s]
+
+std::string WithoutNumbers(const std::string& text) {
+  std::string rest;
+  for (const char c : text) {
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0) rest += c;
+  }
+  return rest;
+}
 
 }  // namespace
 
@@ -87,10 +96,12 @@ void InputWatch::SetProblem(const std::string& key, const std::string& text) {
 }
 
 void InputWatch::Refuse(const std::string& topic, const std::string& reason) {
-  constexpr std::size_t kMaxReasons = 100;  // a reason may hold numbers that are always others
-  const std::string key = topic + ": " + reason;
+  constexpr std::size_t kMaxReasons = 100;
+  const std::string text = topic + ": " + reason;
+  const std::string key = WithoutNumbers(text);  // they may be others in every message
   if (refused_.size() >= kMaxReasons && refused_.count(key) == 0) refused_.clear();
   Refusal& refusal = refused_[key];
+  refusal.text = text;
   ++refusal.messages;
   const ros::WallTime now = ros::WallTime::now();
   refusal.last = now;
@@ -237,10 +248,10 @@ void InputWatch::Diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   for (const auto& [key, text] : problems_) {
     status.mergeSummaryf(DiagnosticStatus::WARN, "%s: %s", key.c_str(), text.c_str());
   }
-  for (const auto& [reason, refusal] : refused_) {
-    status.add("refused: " + reason, refusal.messages);
+  for (const auto& [key, refusal] : refused_) {
+    status.add("refused: " + refusal.text, refusal.messages);
     if ((now - refusal.last).toSec() < kTellPeriod) {
-      status.mergeSummary(DiagnosticStatus::WARN, "a message was not used: " + reason);
+      status.mergeSummary(DiagnosticStatus::WARN, "a message was not used: " + refusal.text);
     }
   }
   for (const auto& [key, value] : values_) status.add(key, value());

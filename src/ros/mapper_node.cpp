@@ -89,14 +89,23 @@ void MapperNode::OnMatch(const ScanMatchConstPtr& message) {
   try {
     ApplyNews();
     const MatchedMotion match = FromMessage(*message);
-    if (last_pose_ && match.stamp < last_pose_->stamp) {
-      trajectory_.Clear();
-      encoder_trajectory_.Clear();
-    }
+    if (last_pose_ && match.stamp < last_pose_->stamp) TakeTimeBack();
     PublishPose(mapper_.AddMatch(match));
     if (match.odom_from_base) encoder_trajectory_.Add(match.stamp, *match.odom_from_base);
   } catch (const std::invalid_argument& error) {
     watch_.Refuse(match_subscriber_.getTopic(), error.what());
+  }
+}
+
+/// A bag is played again, or the clock was set.
+void MapperNode::TakeTimeBack() {
+  if (ros::Time::isSimTime()) {
+    ROS_WARN("time went back: starting over");
+    mapper_.TimeWentBack();
+    StartOver();
+  } else {
+    ROS_WARN("the clock was set back: going on from the last pose");
+    mapper_.ClockWasSet();
   }
 }
 
@@ -145,7 +154,9 @@ void MapperNode::OnMatchedModel(const IcpModelConstPtr& model,
 std::shared_ptr<const Keyframe> MapperNode::Draw(const FusedModel& model,
                                                  const MatchedMotion& match) {
   try {
-    return map_time_.Measure([&] { return mapper_.AddModel(model, match); });
+    auto keyframe = map_time_.Measure([&] { return mapper_.AddModel(model, match); });
+    watch_.SetProblem(kMapProblem, "");
+    return keyframe;
   } catch (const std::invalid_argument& error) {
     watch_.SetProblem(kMapProblem, std::string("scans are left out, as ") + error.what() +
                                        "; raise it, or lower map_max_range");
@@ -155,7 +166,7 @@ std::shared_ptr<const Keyframe> MapperNode::Draw(const FusedModel& model,
 
 void MapperNode::OnInitialPose(const geometry_msgs::PoseWithCovarianceStampedConstPtr& message) {
   const std::string topic = initial_pose_subscriber_.getTopic();
-  if (StripSlash(message->header.frame_id) != options_.node.map_frame) {
+  if (StripSlash(message->header.frame_id) != StripSlash(options_.node.map_frame)) {
     watch_.Refuse(topic, "its frame is " + message->header.frame_id + ", expected is " +
                              options_.node.map_frame);
     return;
@@ -241,6 +252,7 @@ void MapperNode::StartOver() {
   encoder_trajectory_.Clear();
   map_publisher_.StartOver();
   watch_.ForgetProblem(kMapProblem);
+  if (mapper_.empty()) back_end_.Load(GraphMemory());
   if (mapper_.lost()) transform_publisher_.Stop();
 }
 

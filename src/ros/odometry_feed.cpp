@@ -14,6 +14,7 @@ namespace {
 constexpr double kPollPeriod = 0.01;           // of the transform [s]
 constexpr double kTopicSilence = 1.0;          // after which TF is looked at [s]
 constexpr double kTransformSilence = 2.0;      // after which it is told [s]
+constexpr double kTransformWait = 2.0;         // for that of the encoders' frame to the base [s]
 constexpr std::uint32_t kReadingQueue = 1000;  // small; a late node shall hear of all its gap
 
 }  // namespace
@@ -43,11 +44,40 @@ void OdometryFeed::OnOdometry(const nav_msgs::OdometryConstPtr& message) {
   if (std::exchange(by_transform_, false)) ExpectTopic();
   watch_->Arrived(subscriber_.getTopic(), message->header.stamp.toNSec());
   last_message_ = ros::WallTime::now();
+  if (first_message_.isZero()) first_message_ = last_message_;
   try {
-    on_pose_(ToStamp(message->header.stamp), ToPose2(message->pose.pose));
+    CheckFrame(StripSlash(message->header.frame_id));
+    if (!FindBase(StripSlash(message->child_frame_id))) return;
+    on_pose_(ToStamp(message->header.stamp), ToPose2(message->pose.pose) * child_from_base_);
   } catch (const std::invalid_argument& error) {
     watch_->Refuse(subscriber_.getTopic(), error.what());
   }
+}
+
+/// Encoders may tell the pose of another of the base's frames, as base_footprint. False: where that
+/// is may still come to be known.
+bool OdometryFeed::FindBase(const std::string& child) {
+  if (child_ == child) return true;
+  const std::string base = StripSlash(input_.base_frame);
+  FrameLookup base_in_child;
+  if (!child.empty() && child != base) base_in_child = LookUpSensor(*tf_, child, base);
+  const std::string& problem = base_in_child.problem;
+  if (!problem.empty() && (last_message_ - first_message_).toSec() < kTransformWait) return false;
+  watch_->SetProblem("base of " + subscriber_.getTopic(),
+                     problem.empty() ? "" : problem + "; its poses are taken for those of " + base);
+  child_from_base_ = ToPose2(base_in_child.base_from_sensor);
+  child_ = child;
+  return true;
+}
+
+void OdometryFeed::CheckFrame(const std::string& frame) {
+  const std::string expected = StripSlash(input_.odom_frame);
+  const bool right = frame.empty() || frame == expected;
+  watch_->SetProblem("frame of " + subscriber_.getTopic(),
+                     right ? ""
+                           : "it is " + frame + ", but odom_frame is " + expected +
+                                 ", which the mapper ties to the map: set odom_frame, or let "
+                                 "odom_source be tf");
 }
 
 void OdometryFeed::PollTransform() {

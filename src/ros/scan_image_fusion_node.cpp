@@ -169,7 +169,7 @@ void ScanImageFusionNode::OnScan(const ros::MessageEvent<const sensor_msgs::Lase
   if (!watch_.InTime(topic, event.getReceiptTime())) return;
   try {
     const LaserScan scan = ToLaserScan(*message);
-    switch (time_guard_.Check(scan.stamp)) {
+    switch (time_guard_.Check(scan.stamp, ClockNow(), ros::Time::isSimTime())) {
       case TimeGuard::Verdict::kStale:
         throw std::invalid_argument("its stamp is not later than that of the scan before");
       case TimeGuard::Verdict::kAhead:
@@ -300,10 +300,9 @@ void ScanImageFusionNode::PreparePicture(const FusedModel& model) {
 }
 
 void ScanImageFusionNode::OnMatch(const ScanMatchConstPtr& message) {
-  if (!to_draw_ || ToStamp(message->header.stamp) != to_draw_->stamp) return;
   try {
     const MatchedMotion match = FromMessage(*message);
-    PublishPicture(&match);
+    if (to_draw_ && match.stamp == to_draw_->stamp) PublishPicture(&match);
   } catch (const std::invalid_argument& error) {
     watch_.Refuse(match_subscriber_.getTopic(), error.what());
   }

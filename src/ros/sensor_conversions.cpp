@@ -34,6 +34,8 @@ ros::Time ToRosTime(Stamp stamp) {
   return time;
 }
 
+Stamp ClockNow() { return static_cast<Stamp>(ros::Time::now().toNSec()); }
+
 Stamp SteadyNow() { return static_cast<Stamp>(ros::SteadyTime::now().toNSec()); }
 
 LaserScan ToLaserScan(const sensor_msgs::LaserScan& message) {

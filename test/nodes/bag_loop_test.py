@@ -67,7 +67,7 @@ class BagLoopTest(unittest.TestCase):
         console.said('time went back', node='/bounded_icp', count=2)
         # The map was emptied: the same area is known after each pass.
         known = [numpy.count_nonzero(numpy.array(m.data, numpy.int8) >= 0) for m in maps.messages]
-        self.assertLess(max(known), 1.3 * known[len(known) // 2])
+        self.assertLess(max(known), 1.1 * max(known[:len(known) // 3]))  # those of the first pass
         lengths = [len(m.poses) for m in paths.messages]
         self.assertTrue(any(b < a for a, b in zip(lengths, lengths[1:])), 'the path starts anew')
         stamps = [t.header.stamp.to_sec() for t in transforms.messages

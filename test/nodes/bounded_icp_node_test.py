@@ -2,13 +2,15 @@
 """The node bounded_icp alone: hand-made models and odometry in, matches out."""
 
 import math
+import signal
+import subprocess
 import unittest
 
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
-from live_support import (START, Console, Recorder, make_model, make_odometry, publisher,
-                          wait_subscribed)
+from live_support import (START, Console, Recorder, make_model, make_odometry, program, publisher,
+                          static_transforms, transform, wait_for, wait_subscribed)
 from nav_msgs.msg import Odometry
 from pose_support import angle_difference, compose
 from scan_image_slam.msg import IcpModel, ScanMatch
@@ -112,6 +114,44 @@ class BoundedIcpNodeTest(unittest.TestCase):
         for _ in range(5):
             self.assertEqual(self.match().start_stamp, first.start_stamp)
         self.assertEqual(len(self.matches.messages), heard + 5)
+
+    def test_encoders_of_another_of_the_bases_frames(self):
+        """Turning on the spot, base_footprint, 0.2 m ahead of the base, goes round it."""
+        odom = publisher('other/odom', Odometry)
+        model = publisher('other/icp_model', IcpModel)
+        node = subprocess.Popen([program('bounded_icp'), '__name:=other_icp', 'odom:=other/odom',
+                                 'icp_model:=other/icp_model', 'scan_match:=other/scan_match'])
+        try:
+            matches = Recorder('other/scan_match', ScanMatch).wait_connected()
+            wait_subscribed(odom, model)
+            static = static_transforms(transform('base_link', 'base_footprint', x=0.2))
+            time = [START]
+
+            def turn(child, frame):
+                time[0] += PERIOD
+                yaw = 0.02 * (time[0] - START) / PERIOD
+                message = make_odometry(time[0], *compose((0.0, 0.0, yaw), (0.2, 0.0, 0.0)))
+                message.child_frame_id, message.header.frame_id = child, frame
+                odom.publish(message)
+                model.publish(make_model(time[0], (0.0, 0.0, yaw)))
+                rospy.sleep(PERIOD)
+                return matches.messages and matches.messages[-1].has_odometry
+            wait_for(lambda: turn('base_footprint', 'wheels'), 'encoders to be used')
+            for _ in range(20):
+                turn('base_footprint', 'wheels')
+            pose = matches.at(time[0]).odom_pose
+            self.assertAlmostEqual(math.hypot(pose.x, pose.y), 0.0, places=6)
+            self.console.said('frame of /other/odom: it is wheels', 'odom_frame is odom',
+                              node='/other_icp')
+            turn('wheel_centre', 'odom')
+            self.console.said('frame of /other/odom: all right now', node='/other_icp')
+            wait_for(lambda: (turn('wheel_centre', 'odom'), self.console.found(
+                'no transform wheel_centre -> base_link', 'taken for those of base_link',
+                node='/other_icp'))[1], 'the missing transform to be told')
+            static.unregister()
+        finally:
+            node.send_signal(signal.SIGINT)
+            self.assertEqual(node.wait(30), 0)
 
     def test_unusable_models_are_refused_with_the_reason(self):
         start = self.start_over().start_stamp

@@ -134,6 +134,8 @@ class FusionNodeTest(CameraTest):
         self.assertFalse(any(has_red(picture) for picture in pictures.messages))
         matches.publish(match)
         pictures.find(has_red, 'refused edges')
+        matches.publish(ScanMatch())
+        self.console.said('/scan_match', 'was not used', 'stamp is zero')
 
     def fuse_with_image(self, t, pixels):
         """The first model that an image was fused into: topics go different ways."""

@@ -3,11 +3,11 @@
 #include "scan_image_slam/core/config/slam_parameters.h"
 #include "scan_image_slam/core/matching/bounded_icp.h"
 #include "scan_image_slam/core/sensor/odometry_gate.h"
+#include "scan_image_slam/core/sensor/time_guard.h"
 #include "scan_image_slam/ros/busy_time.h"
 #include "scan_image_slam/ros/input_watch.h"
 #include "scan_image_slam/ros/live_parameters.h"
 #include "scan_image_slam/ros/odometry_feed.h"
-#include "scan_image_slam/ros/time_guard.h"
 #include "scan_image_slam/ros/wake_up.h"
 #include <scan_image_slam/IcpModel.h>
 
@@ -45,7 +45,7 @@ class BoundedIcpNode {
   void CheckMatching();
   void CheckCalibration();
   void PublishWindow(const MatchedMotion& match);
-  void StartOver(const char* reason);
+  void StartOver();
 
   Options options_;
   BoundedIcp bounded_icp_;

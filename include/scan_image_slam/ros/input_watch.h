@@ -84,11 +84,12 @@ class InputWatch {
   std::map<std::string, Topic> topics_;
   std::map<std::string, std::string> problems_;
   struct Refusal {
+    std::string text;  ///< topic and reason of the last
     int messages = 0;
     ros::WallTime last;
     ros::WallTime told;
   };
-  std::map<std::string, Refusal> refused_;  ///< by topic and reason
+  std::map<std::string, Refusal> refused_;  ///< by topic and reason, but for numbers
   std::map<std::string, std::function<std::string()>> values_;
   ros::WallTime begin_;
   ros::WallTime diagnosed_;

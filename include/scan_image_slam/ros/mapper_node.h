@@ -70,6 +70,7 @@ class MapperNode {
   void TakeIn(const MapState& state, Mapper* loaded, const std::string& path);
   void Autosave();
   void FinishAutosave();
+  void TakeTimeBack();
   void PublishPose(const MapPose& pose);
   /// Not only late: base_frame, which has its parent from them, must not get a second one.
   bool EncodersAreMissing(Stamp stamp);

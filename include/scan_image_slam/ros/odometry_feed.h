@@ -6,6 +6,8 @@
 #include "scan_image_slam/ros/input_watch.h"
 
 #include <functional>
+#include <optional>
+#include <string>
 
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
@@ -24,6 +26,8 @@ class OdometryFeed {
  private:
   void ExpectTopic();
   void OnOdometry(const nav_msgs::OdometryConstPtr& message);
+  bool FindBase(const std::string& child);
+  void CheckFrame(const std::string& frame);
   void PollTransform();
   void WatchTransform();
 
@@ -33,7 +37,10 @@ class OdometryFeed {
   OnPose on_pose_;
   ros::Subscriber subscriber_;
   ros::WallTimer timer_;
+  ros::WallTime first_message_;
   ros::WallTime last_message_;
+  std::optional<std::string> child_;  ///< whose poses the messages tell, if it is known where it is
+  Pose2 child_from_base_;
   bool by_transform_;  ///< not by a topic
   ros::Time last_transform_;
   ros::WallTime last_change_;  ///< of the transform

@@ -2,9 +2,9 @@
 
 #include "scan_image_slam/ros/memory_limit.h"
 
+#include <atomic>
 #include <csignal>
 #include <exception>
-#include <memory>
 #include <new>
 
 #include <ros/console.h>
@@ -13,23 +13,28 @@
 
 namespace scan_image_slam {
 
-/// Holds Ctrl-C and the like back while a node is being made: roscpp aborts if it has to shut down
-/// half of one.
-class InterruptLater {
+/// Ctrl-C and the like, held back while a node is being made: roscpp aborts if it has to shut down
+/// half of one. Whichever thread the system lets handle the signal.
+class Interrupt {
  public:
-  InterruptLater() {
-    sigset_t interrupt;
-    sigemptyset(&interrupt);
-    sigaddset(&interrupt, SIGINT);
-    sigaddset(&interrupt, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &interrupt, &before_);
+  /// To be called once the first NodeHandle has made roscpp take its own handlers.
+  static void HoldBack() {
+    for (const int number : {SIGINT, SIGTERM}) std::signal(number, &Interrupt::Handle);
   }
-  ~InterruptLater() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  InterruptLater(const InterruptLater&) = delete;
-  InterruptLater& operator=(const InterruptLater&) = delete;
+  /// From now on it ends the node, also if it has come already.
+  static void LetThrough() {
+    held_back_ = false;
+    if (pending_) ros::requestShutdown();
+  }
 
  private:
-  sigset_t before_;
+  static void Handle(int /*number*/) {
+    pending_ = true;
+    if (!held_back_) ros::requestShutdown();
+  }
+
+  static inline std::atomic<bool> held_back_{true};
+  static inline std::atomic<bool> pending_{false};
 };
 
 /// main() of a node: spins until it is shut down, by Ctrl-C or by SIGTERM, which roscpp leaves to
@@ -44,11 +49,9 @@ int RunNode(int argc, char** argv, const char* name) {
   std::size_t memory = 0;
   try {
     memory = LimitMemory();
-    std::unique_ptr<Node> instance;
-    {
-      const InterruptLater interrupt_later;
-      instance = std::make_unique<Node>(node, private_node);
-    }
+    Interrupt::HoldBack();
+    const Node instance(node, private_node);
+    Interrupt::LetThrough();
     ros::spin();
     return 0;
   } catch (const std::bad_alloc&) {

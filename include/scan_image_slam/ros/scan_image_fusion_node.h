@@ -5,12 +5,12 @@
 #include "scan_image_slam/core/fusion/scan_image_fusion.h"
 #include "scan_image_slam/core/matching/matched_motion.h"
 #include "scan_image_slam/core/sensor/odometry_gate.h"
+#include "scan_image_slam/core/sensor/time_guard.h"
 #include "scan_image_slam/ros/busy_time.h"
 #include "scan_image_slam/ros/input_watch.h"
 #include "scan_image_slam/ros/live_parameters.h"
 #include "scan_image_slam/ros/odometry_feed.h"
 #include "scan_image_slam/ros/sensor_mount.h"
-#include "scan_image_slam/ros/time_guard.h"
 #include "scan_image_slam/ros/wake_up.h"
 #include <scan_image_slam/ScanMatch.h>
 

@@ -29,6 +29,8 @@ Stamp ToStamp(const ros::Time& time);
 ros::Time ToRosTime(Stamp stamp);
 /// When something has come in, by a clock that nobody sets (see OdometryGate) [ns].
 Stamp SteadyNow();
+/// By the clock of ROS, which is that of a bag if time is simulated; 0 before that begins [ns].
+Stamp ClockNow();
 
 /// At least one beam and at most 100000, finite angles, an increment that is not zero, a minute at
 /// most.

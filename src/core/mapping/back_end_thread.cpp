@@ -99,6 +99,7 @@ void BackEndThread::Post(Work work, bool new_map) {
 
 BackEndNews BackEndThread::Take() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (failure_) std::rethrow_exception(failure_);
   if (news_.graph && !news_.graph->poses.empty()) taken_ = news_.graph->poses.rbegin()->first;
   return std::exchange(news_, BackEndNews());
 }
@@ -116,9 +117,16 @@ void BackEndThread::Run() {
     const Job job = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();
-    back_end_.ForgetLetGo(job.taken);
-    BackEndNews found = job.work(back_end_);
+    BackEndNews found;
+    std::exception_ptr failure;
+    try {
+      back_end_.ForgetLetGo(job.taken);
+      found = job.work(back_end_);
+    } catch (...) {
+      failure = std::current_exception();
+    }
     lock.lock();
+    if (failure) failure_ = failure;
     if (job.map_number != map_number_) continue;
     if (found.graph) news_.graph = std::move(found.graph);
     if (found.location) news_.location = found.location;

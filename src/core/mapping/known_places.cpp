@@ -8,7 +8,6 @@ bool KnownPlaces::IsNear(const Pose2& from_from_to) const {
          std::abs(NormalizeAngle(from_from_to.theta)) <= options_.max_angle;
 }
 
-/// True if so many keyframes before this one are kept with what they saw from nearly its pose.
 bool KnownPlaces::HasManyViews(int id) const {
   const Pose2 base_from_map = poses_.at(id).Inverse();
   int views = 0;

@@ -47,8 +47,8 @@ bool LoopCloser::Add(std::shared_ptr<const Keyframe> keyframe) {
     poses_[id] = poses_.at(id - 1) * added.previous_from_base;
     Join({id - 1, id, added.previous_from_base, added.covariance.inverse(), !added.joined});
   }
-  if (!options_.enabled) return false;
   ReleaseKnown();
+  if (!options_.enabled) return false;
   const std::vector<std::pair<int, int>> candidates = Candidates(id);
   if (candidates.empty()) return false;
   std::vector<int> near_ids;
@@ -277,7 +277,9 @@ void LoopCloser::ReleaseKnown() {
   const int judged = next_to_release_;
   for (; WayAt(next_to_release_) < way; ++next_to_release_) {
     std::shared_ptr<const Keyframe>& keyframe = keyframes_.at(next_to_release_);
-    if (keyframe->points.empty() || !places.AnchorOf(next_to_release_)) continue;
+    const bool known = options_.enabled ? places.AnchorOf(next_to_release_).has_value()
+                                        : places.HasManyViews(next_to_release_);
+    if (keyframe->points.empty() || !known) continue;
     auto released = std::make_shared<Keyframe>(*keyframe);
     released->points = std::vector<KeptPoint>();
     released->edges = std::vector<ModelEdge>();

@@ -69,13 +69,7 @@ void Mapper::SetOptions(const MapperOptions& options) {
 }
 
 void Mapper::BeginChain(const MatchedMotion& match) {
-  if (start_stamp_ && match.start_stamp < last_.stamp) {
-    if (growing()) {
-      Reset();
-    } else {
-      Forget();
-    }
-  }
+  if (start_stamp_ && match.start_stamp < last_.stamp) TimeWentBack();
   Pose2 map_from_base;
   if (!has_pose_) {
     if (match.odom_from_base) map_from_base = *match.odom_from_base;
@@ -293,7 +287,7 @@ void Mapper::Load(const MapState& state, MapUse use) {
   loaded.drawn_.BeginRedraw();  // what the graph knew better when it was saved
   if (!state.graph.keyframes.empty()) loaded.way_ = state.graph.keyframes.rbegin()->second->way;
   loaded.localize_ = use == MapUse::kLocalize;
-  loaded.lost_ = !loaded.keyframe_poses_.empty();
+  loaded.loaded_ = loaded.lost_ = !loaded.keyframe_poses_.empty();
   *this = std::move(loaded);
 }
 
@@ -315,6 +309,21 @@ void Mapper::Forget() {
   has_pose_ = false;
   tracked_.clear();
   tracked_spacing_ = 0.0;
+}
+
+void Mapper::TimeWentBack() {
+  if (loaded_) {
+    Forget();
+  } else {
+    Reset();
+  }
+}
+
+void Mapper::ClockWasSet() {
+  start_stamp_.reset();  // the next match begins another chain
+  drawn_stamp_.reset();
+  looked_stamp_.reset();
+  told_stamp_.reset();
 }
 
 void Mapper::Locate(const Location& location) {

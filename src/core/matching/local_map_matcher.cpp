@@ -155,7 +155,9 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
     return outcome;
   }
   blind_ = 0;
-  time_ += prediction.dt;
+  // Nothing was seen to stand in a longer time, least of all while a clock was set.
+  constexpr double kLongest = 1.0;  // [s]
+  time_ += std::min(prediction.dt, kLongest);
 
   outcome.edges = Filter(alignment, CorrectSweep(model.edges, alignment.edge_correction),
                          map_from_last, prediction);

@@ -43,7 +43,9 @@ void SlamPipeline::AddImage(const CameraImage& image, Stamp now) {
 }
 
 void SlamPipeline::AddScan(const LaserScan& scan, Stamp now) {
-  if (last_scan_stamp_ && scan.stamp <= *last_scan_stamp_) {
+  // One far ahead of time would make all that follow it stale.
+  const bool leaps = time_guard_.Check(scan.stamp, now, false) == TimeGuard::Verdict::kAhead;
+  if (leaps || (last_scan_stamp_ && scan.stamp <= *last_scan_stamp_)) {
     ++stale_;
     return;
   }

@@ -107,6 +107,15 @@ TEST(LoopCloser, AKnownBuildingNeedsNoMoreMemory) {
   EXPECT_EQ(closer.let_go().size(), 0U);
 }
 
+TEST(LoopCloser, NorDoesItIfLoopsAreNotClosed) {
+  const DriftingDrive drive = Drive(RingOfCorridors(), AroundTheRing(10), {1.0, 0.0});
+  LoopCloserOptions options;
+  options.enabled = false;
+  LoopCloser closer(options);
+  for (const auto& keyframe : drive.keyframes) EXPECT_FALSE(closer.Add(keyframe));
+  EXPECT_LT(WithPoints(closer), 600);  // five rounds of ten, and the last few metres
+}
+
 TEST(LoopCloser, GoesOnFromAMemoryThatLacksWhatIsKnown) {
   const DriftingDrive drive = Drive(RingOfCorridors(), AroundTheRing(8), {1.002, 0.0002});
   LoopCloser whole{LoopCloserOptions()};

@@ -114,6 +114,21 @@ TEST(MapperChain, WhenTimeGoesBackTheMapBeginsAnew) {
   }
 }
 
+TEST(MapperChain, WhenTheClockIsSetBackTheRobotGoesOnInItsMap) {
+  Mapper mapper{MapperOptions()};
+  mapper.AddMatch(MatchAt(100, 100, {}, Pose2{1.0, 0.0, 0.0}));
+  const MatchedMotion match = MatchAt(100, 200, {4.0, 1.0, 0.0}, Pose2{4.5, 1.0, 0.0});
+  mapper.AddMatch(match);  // at (5, 1), where the encoders say (4.5, 1)
+  mapper.AddModel(WallAhead(2.0), match);
+  const int drawn = DrawnCells(mapper);
+  ASSERT_GT(drawn, 0);
+  mapper.ClockWasSet();
+  const MatchedMotion later = MatchAt(50, 50, {}, Pose2{6.5, 1.0, 0.0});
+  ExpectPoseNear(mapper.AddMatch(later).map_from_base, {7.0, 1.0, 0.0});
+  EXPECT_NE(mapper.AddModel(WallAhead(2.0), later), nullptr);
+  EXPECT_GT(DrawnCells(mapper), drawn);
+}
+
 TEST(MapperChain, ANewOneIsNotKnownBetterThanTheLastPose) {
   Mapper mapper{MapperOptions()};
   MatchedMotion match = MatchAt(100, 200, {});

@@ -53,6 +53,21 @@ class MapLoading : public ::testing::Test {
   MapState saved_;
 };
 
+TEST_F(MapLoading, AMapThatWasLoadedOutlivesALeapBackInTime) {
+  PipelineRun after;
+  after.pipeline.Load(saved_, MapUse::kContinue);
+  after.Drive(LaterDrive(), kScans);
+  Mapper& mapper = after.pipeline.mapper();
+  ASSERT_TRUE(mapper.growing());
+  const std::size_t drawn = mapper.drawn().scans().size();
+  mapper.TimeWentBack();
+  EXPECT_TRUE(mapper.lost());
+  EXPECT_FALSE(mapper.empty());
+  EXPECT_EQ(mapper.drawn().scans().size(), drawn);
+  before_.pipeline.mapper().TimeWentBack();
+  EXPECT_TRUE(before_.pipeline.mapper().empty()) << "one of this run does not";
+}
+
 TEST_F(MapLoading, TheMapIsDrawnAsItWas) {
   ASSERT_GT(saved_.graph.keyframes.size(), 5U);
   PipelineRun after;

@@ -33,6 +33,7 @@ class OdometryGateTest : public ::testing::Test {
 
   /// Scan 1 has waited for encoders that did not come.
   void LetOneWaitInVain() {
+    AddReading(&odometry_, kScan - 100 * kMs);
     gate_.Push(1, kScan, kNow);
     EXPECT_EQ(PopAt(kNow + 20 * kMs), 1);
   }
@@ -76,16 +77,30 @@ TEST_F(OdometryGateTest, TellsHowLongTheNextScanMayWait) {
   EXPECT_DOUBLE_EQ(*gate_.TimeLeft(kNow + 8 * kMs), 0.017);
 }
 
+TEST_F(OdometryGateTest, TheFirstReadingIsWaitedForLonger) {
+  gate_.Push(1, kScan, kNow);
+  EXPECT_FALSE(PopAt(kNow + 150 * kMs));
+  EXPECT_DOUBLE_EQ(*gate_.TimeLeft(kNow + 150 * kMs), 0.05);
+  AddReading(&odometry_, kScan + 140 * kMs);
+  EXPECT_EQ(PopAt(kNow + 151 * kMs), 1);
+}
+
 TEST_F(OdometryGateTest, WithoutEncodersOnlyTheFirstScanWaits) {
   gate_.Push(1, kScan, kNow);
-  EXPECT_FALSE(PopAt(kNow + 19 * kMs));
-  EXPECT_EQ(PopAt(kNow + 20 * kMs), 1);
-  gate_.Push(2, kScan + 25 * kMs, kNow + 25 * kMs);
-  EXPECT_EQ(PopAt(kNow + 25 * kMs), 2);
+  EXPECT_FALSE(PopAt(kNow + 199 * kMs));
+  EXPECT_EQ(PopAt(kNow + 200 * kMs), 1);
+  gate_.Push(2, kScan + 250 * kMs, kNow + 250 * kMs);
+  EXPECT_EQ(PopAt(kNow + 250 * kMs), 2);
+  // Not even after a while without a look.
+  gate_.Push(3, kScan + 1250 * kMs, kNow + 1250 * kMs);
+  EXPECT_FALSE(PopAt(kNow + 1269 * kMs));
+  EXPECT_EQ(PopAt(kNow + 1270 * kMs), 3);
+  gate_.Clear();
+  gate_.Push(4, kScan + 1300 * kMs, kNow + 1300 * kMs);
+  EXPECT_FALSE(PopAt(kNow + 1499 * kMs));
 }
 
 TEST_F(OdometryGateTest, SilentEncodersAreNotWaitedForTwice) {
-  AddReading(&odometry_, kScan - 100 * kMs);
   LetOneWaitInVain();
   for (int scan = 2; scan < 5; ++scan) {
     gate_.Push(scan, kScan + scan * kMs, kNow + 30 * kMs);
@@ -94,7 +109,6 @@ TEST_F(OdometryGateTest, SilentEncodersAreNotWaitedForTwice) {
 }
 
 TEST_F(OdometryGateTest, EncodersThatSpeakAgainAreWaitedForAgain) {
-  AddReading(&odometry_, kScan - 100 * kMs);
   LetOneWaitInVain();
   AddReading(&odometry_, kScan - 50 * kMs);
   gate_.Push(2, kScan + 25 * kMs, kNow + 25 * kMs);

@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <functional>
 #include <future>
 #include <memory>
@@ -53,7 +54,7 @@ class BackEndThread {
   /// exception of WriteState if the file can't be written.
   std::future<void> Save(MapState state, std::string path);
 
-  /// What was found since the last call.
+  /// What was found since the last call. Throws what the work has thrown: there is no memory left.
   BackEndNews Take();
 
   /// Keyframes, sightings and files that wait.
@@ -74,6 +75,7 @@ class BackEndThread {
   std::condition_variable changed_;
   std::deque<Job> jobs_;
   BackEndNews news_;
+  std::exception_ptr failure_;
   int map_number_ = 0;
   int taken_ = -1;  ///< latest keyframe of the news that were taken
   bool stop_ = false;

@@ -35,6 +35,10 @@ class KnownPlaces {
   /// The keyframe that knew what this one saw, and is kept itself; nothing if there is none.
   std::optional<int> AnchorOf(int id) const;
 
+  /// True if as many keyframes before this one as are of use are kept with what they saw, from
+  /// nearly its pose, recognised or not.
+  bool HasManyViews(int id) const;
+
   /// True if the graph can do without a keyframe whose points were let go: its place was visited
   /// often enough, and the keyframes before and after it are known, too, so that what comes before
   /// and after such a stretch stays tied to the map.
@@ -42,7 +46,6 @@ class KnownPlaces {
 
  private:
   bool IsNear(const Pose2& from_from_to) const;
-  bool HasManyViews(int id) const;
   bool IsKnown(int id) const;
 
   const Keyframes& keyframes_;

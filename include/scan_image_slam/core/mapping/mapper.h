@@ -57,7 +57,8 @@ class Mapper {
 
   /// The pose after a match. The first pose is that of the encoders, so that the map's frame begins
   /// as theirs. A chain of matches that begins anew goes on from the last known pose, carried on by
-  /// the encoders; if it begins before the last match, time has gone back and the map with it.
+  /// the encoders; if it begins before the last match, time has gone back and the map with it, but
+  /// for one that was loaded: the robot is searched for in it.
   MapPose AddMatch(const MatchedMotion& match);
 
   /// Draws the scan of a match into the map, if the robot has moved or some time has passed.
@@ -87,6 +88,12 @@ class Mapper {
   /// match, where the first pose will be.
   void SetPose(const Pose2& map_from_base);
 
+  /// As if nothing had been seen yet; in a map that was loaded the robot is lost.
+  void TimeWentBack();
+
+  /// The clock was set while the robot drove on: earlier stamps than the last are no other time.
+  void ClockWasSet();
+
   const OccupancyGrid& grid() const { return drawn_.grid(); }
   OccupancyGrid& grid() { return drawn_.grid(); }
 
@@ -101,6 +108,7 @@ class Mapper {
   /// What the map is drawn from.
   const DrawnMap& drawn() const { return drawn_; }
 
+  bool empty() const { return keyframe_poses_.empty(); }
   bool lost() const { return lost_; }
   /// False while a loaded map stays as it is.
   bool growing() const { return !lost_ && !localize_; }
@@ -145,6 +153,7 @@ class Mapper {
   double tracked_spacing_ = 0.0;  ///< between them, at least [m]
 
   KnownChain loaded_chain_;
+  bool loaded_ = false;                ///< the map was begun in an earlier run
   bool localize_ = false;              ///< the map stays as it is
   bool lost_ = false;                  ///< nobody knows where the robot is in the map
   std::optional<Stamp> told_stamp_;    ///< of the last scan before SetPose

@@ -51,8 +51,15 @@ class BoundedIcp {
   /// out of range.
   void SetOptions(const BoundedIcpOptions& options);
 
-  /// Forgets everything: time went back, or the user asked for it.
+  /// Forgets everything, as time went back.
   void Reset() { *this = BoundedIcp(options_); }
+
+  /// Forgets all but the encoders: the next model begins another chain where they are.
+  void BeginAnew() {
+    OdometryBuffer odometry = std::move(predictor_.odometry());
+    Reset();
+    predictor_.odometry() = std::move(odometry);
+  }
 
  private:
   void ChooseReference(const Pose2& start_from_base, MatchedMotion* match);

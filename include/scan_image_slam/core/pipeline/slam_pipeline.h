@@ -6,6 +6,7 @@
 #include "scan_image_slam/core/mapping/mapper.h"
 #include "scan_image_slam/core/matching/bounded_icp.h"
 #include "scan_image_slam/core/sensor/odometry_gate.h"
+#include "scan_image_slam/core/sensor/time_guard.h"
 
 #include <functional>
 #include <optional>
@@ -61,6 +62,7 @@ class SlamPipeline {
   Mapper mapper_;
   BackEnd back_end_;
   OdometryGate<LaserScan> gate_;
+  TimeGuard time_guard_;
   std::optional<Stamp> last_scan_stamp_;
   int stale_ = 0;
 };
