@@ -75,14 +75,11 @@ void MapperNode::Autosave() {
 /// Waits for a file that is being written.
 void MapperNode::FinishAutosave() {
   if (!autosaved_.valid()) return;
-  try {
-    autosaved_.get();
-    watch_.SetProblem("autosave", "");
-  } catch (const std::exception& error) {
-    changed_ = true;
-    watch_.SetProblem("autosave", error.what());
-    ROS_ERROR_STREAM("autosave: " << error.what());
-  }
+  const std::string problem = autosaved_.get();
+  watch_.SetProblem("autosave", problem);
+  if (problem.empty()) return;
+  changed_ = true;
+  ROS_ERROR_STREAM("autosave: " << problem);
 }
 
 MapperNode::~MapperNode() {
@@ -123,13 +120,14 @@ bool MapperNode::SaveMap(SaveMapRequest& request, SaveMapResponse& response) {
 
 bool MapperNode::SaveState(StateFileRequest& request, StateFileResponse& response) {
   try {
-    std::future<void> written;
+    std::future<std::string> written;
     files_.InNodeThread([&] {
       response.path = PathInside(options_.node.map_folder, request.path);
       written = back_end_.Save(mapper_.State(), response.path);
     });
-    written.get();
-    response.success = true;
+    response.message = written.get();
+    response.success = response.message.empty();
+    if (!response.success) ROS_ERROR_STREAM("save_state: " << response.message);
   } catch (const std::exception& error) {
     response.message = error.what();
     ROS_ERROR_STREAM("save_state: " << error.what());

@@ -91,7 +91,7 @@ class MapperNode {
   std::optional<MapPose> last_pose_;
   double agreement_ = 0.0;       ///< of the last scan that was looked for in a loaded map [-]
   bool changed_ = false;         ///< the map, since it was last saved on its own
-  std::future<void> autosaved_;  ///< valid while a file is being written
+  std::future<std::string> autosaved_;  ///< valid while a file is being written
   InputWatch watch_;
   BusyTime map_time_;
   TransformPublisher transform_publisher_;

@@ -66,17 +66,17 @@ void BackEndThread::Load(GraphMemory graph) {
       true);
 }
 
-std::future<void> BackEndThread::Save(MapState state, std::string path) {
-  auto written = std::make_shared<std::promise<void>>();  // shared, as jobs can be copied
-  std::future<void> future = written->get_future();
+std::future<std::string> BackEndThread::Save(MapState state, std::string path) {
+  auto written = std::make_shared<std::promise<std::string>>();  // shared, as jobs can be copied
+  std::future<std::string> future = written->get_future();
   Post(
       [state = std::move(state), path = std::move(path), written](BackEnd& back_end) mutable {
         try {
           state.graph = back_end.loop_closer().memory();
           WriteState(state, path);
-          written->set_value();
-        } catch (...) {
-          written->set_exception(std::current_exception());
+          written->set_value("");
+        } catch (const std::exception& error) {
+          written->set_value(error.what());
         }
         return BackEndNews();
       },

@@ -50,9 +50,9 @@ class BackEndThread {
   /// Starts with another map, as number 0 does.
   void Load(GraphMemory graph);
 
-  /// Writes a state, its graph being that of all keyframes given so far. The future holds the
-  /// exception of WriteState if the file can't be written.
-  std::future<void> Save(MapState state, std::string path);
+  /// Writes a state, its graph being that of all keyframes given so far. The future holds why the
+  /// file could not be written; nothing if it was.
+  std::future<std::string> Save(MapState state, std::string path);
 
   /// What was found since the last call. Throws what the work has thrown: there is no memory left.
   BackEndNews Take();
