@@ -89,8 +89,8 @@ class MapperNode {
   bool has_encoders_ = false;
   std::optional<Stamp> without_encoders_since_;  ///< of the first pose
   std::optional<MapPose> last_pose_;
-  double agreement_ = 0.0;       ///< of the last scan that was looked for in a loaded map [-]
-  bool changed_ = false;         ///< the map, since it was last saved on its own
+  double agreement_ = 0.0;  ///< of the last scan that was looked for in a loaded map [-]
+  bool changed_ = false;    ///< the map, since it was last saved on its own
   std::future<std::string> autosaved_;  ///< valid while a file is being written
   InputWatch watch_;
   BusyTime map_time_;
