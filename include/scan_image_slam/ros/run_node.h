@@ -23,18 +23,18 @@ class Interrupt {
   }
   /// From now on it ends the node, also if it has come already.
   static void LetThrough() {
-    held_back_ = false;
-    if (pending_) ros::requestShutdown();
+    held_back = false;
+    if (pending) ros::requestShutdown();
   }
 
  private:
   static void Handle(int /*number*/) {
-    pending_ = true;
-    if (!held_back_) ros::requestShutdown();
+    pending = true;
+    if (!held_back) ros::requestShutdown();
   }
 
-  static inline std::atomic<bool> held_back_{true};
-  static inline std::atomic<bool> pending_{false};
+  static inline std::atomic<bool> held_back{true};
+  static inline std::atomic<bool> pending{false};
 };
 
 /// main() of a node: spins until it is shut down, by Ctrl-C or by SIGTERM, which roscpp leaves to
