@@ -288,10 +288,12 @@ void BagInput::PlayOdometry(const rosbag::MessageInstance& message, SlamPipeline
   if (odometry == nullptr) return;
   // It may tell the pose of another of the base's frames; unknown ones are taken for the base.
   const std::string child = StripSlash(odometry->child_frame_id);
-  const FrameLookup child_from_base = LookUpSensor(*mounts_, child, base_frame_);
-  pipeline->AddOdometry(ToStamp(odometry->header.stamp),
-                        ToPose2(odometry->pose.pose) * ToPose2(child_from_base.base_from_sensor),
-                        static_cast<Stamp>(message.getTime().toNSec()));
+  const FrameLookup base_from_child =
+      LookUpOnBase(*mounts_, base_frame_, child, odometry->header.frame_id);
+  pipeline->AddOdometry(
+      ToStamp(odometry->header.stamp),
+      ToPose2(odometry->pose.pose) * ToPose2(base_from_child.base_from_sensor).Inverse(),
+      static_cast<Stamp>(message.getTime().toNSec()));
 }
 
 void BagInput::PlayTransforms(const rosbag::MessageInstance& message, SlamPipeline* pipeline) {

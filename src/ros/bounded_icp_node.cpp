@@ -47,7 +47,8 @@ BoundedIcpNode::Options BoundedIcpNode::ReadOptions(const ros::NodeHandle& priva
 BoundedIcpNode::BoundedIcpNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : options_(ReadOptions(private_node)),
       bounded_icp_(options_.bounded_icp),
-      gate_(options_.node.odometry.max_wait, kMaxWaitingModels),
+      gate_(options_.node.odometry.max_wait, kMaxWaitingModels,
+            options_.node.odometry.source != OdometrySource::kNone),
       watch_(node, private_node),
       tf_listener_(tf_, node),
       wake_up_(node, [this] { ReleaseModels(); }),

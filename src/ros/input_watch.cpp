@@ -98,7 +98,7 @@ void InputWatch::SetProblem(const std::string& key, const std::string& text) {
 void InputWatch::Refuse(const std::string& topic, const std::string& reason) {
   constexpr std::size_t kMaxReasons = 100;
   const std::string text = topic + ": " + reason;
-  const std::string key = WithoutNumbers(text);  // they may be others in every message
+  const std::string key = topic + ": " + WithoutNumbers(reason);  // others in every message
   if (refused_.size() >= kMaxReasons && refused_.count(key) == 0) refused_.clear();
   Refusal& refusal = refused_[key];
   refusal.text = text;

@@ -75,7 +75,12 @@ void MapperNode::Autosave() {
 /// Waits for a file that is being written.
 void MapperNode::FinishAutosave() {
   if (!autosaved_.valid()) return;
-  const std::string problem = autosaved_.get();
+  std::string problem;
+  try {
+    problem = autosaved_.get();
+  } catch (const std::future_error& error) {
+    problem = error.what();
+  }
   watch_.SetProblem("autosave", problem);
   if (problem.empty()) return;
   changed_ = true;
@@ -84,9 +89,13 @@ void MapperNode::FinishAutosave() {
 
 MapperNode::~MapperNode() {
   if (options_.node.localization || options_.node.autosave_period <= 0.0) return;
-  FinishAutosave();
-  Autosave();
-  FinishAutosave();
+  try {
+    FinishAutosave();
+    Autosave();
+    FinishAutosave();
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM("autosave: " << error.what());
+  }
 }
 
 void MapperNode::AdvertiseFileServices() {

@@ -30,7 +30,7 @@ std::size_t LimitMemory() {
   rlimit limit{};
   getrlimit(RLIMIT_DATA, &limit);
   limit.rlim_cur =
-      std::min<rlim_t>(limit.rlim_max, PagesOfData() * page + std::max(quarter, kLeast));
+      std::min<rlim_t>(limit.rlim_cur, PagesOfData() * page + std::max(quarter, kLeast));
   if (setrlimit(RLIMIT_DATA, &limit) != 0) {
     throw std::system_error(errno, std::generic_category(), "setrlimit(RLIMIT_DATA)");
   }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kPollPeriod = 0.01;           // of the transform [s]
 constexpr double kTopicSilence = 1.0;          // after which TF is looked at [s]
 constexpr double kTransformSilence = 2.0;      // after which it is told [s]
-constexpr double kTransformWait = 2.0;         // for that of the encoders' frame to the base [s]
+constexpr double kTransformWait = 0.8;         // for that of the encoders' frame to the base [s]
 constexpr std::uint32_t kReadingQueue = 1000;  // small; a late node shall hear of all its gap
 
 }  // namespace
@@ -41,7 +41,10 @@ OdometryFeed::OdometryFeed(ros::NodeHandle node, const OdometryInput& input,
 void OdometryFeed::ExpectTopic() { watch_->Expect(subscriber_, "nav_msgs/Odometry", true); }
 
 void OdometryFeed::OnOdometry(const nav_msgs::OdometryConstPtr& message) {
-  if (std::exchange(by_transform_, false)) ExpectTopic();
+  if (std::exchange(by_transform_, false)) {
+    ExpectTopic();
+    watch_->ForgetProblem("encoders");
+  }
   watch_->Arrived(subscriber_.getTopic(), message->header.stamp.toNSec());
   last_message_ = ros::WallTime::now();
   if (first_message_.isZero()) first_message_ = last_message_;
@@ -59,13 +62,13 @@ void OdometryFeed::OnOdometry(const nav_msgs::OdometryConstPtr& message) {
 bool OdometryFeed::FindBase(const std::string& child) {
   if (child_ == child) return true;
   const std::string base = StripSlash(input_.base_frame);
-  FrameLookup base_in_child;
-  if (!child.empty() && child != base) base_in_child = LookUpSensor(*tf_, child, base);
-  const std::string& problem = base_in_child.problem;
+  FrameLookup base_from_child;
+  if (!child.empty()) base_from_child = LookUpOnBase(*tf_, base, child, input_.odom_frame);
+  const std::string& problem = base_from_child.problem;
   if (!problem.empty() && (last_message_ - first_message_).toSec() < kTransformWait) return false;
   watch_->SetProblem("base of " + subscriber_.getTopic(),
                      problem.empty() ? "" : problem + "; its poses are taken for those of " + base);
-  child_from_base_ = ToPose2(base_in_child.base_from_sensor);
+  child_from_base_ = ToPose2(base_from_child.base_from_sensor).Inverse();
   child_ = child;
   return true;
 }

@@ -86,7 +86,8 @@ ScanImageFusionNode::ScanImageFusionNode(ros::NodeHandle node, ros::NodeHandle p
     : node_(node),
       options_(ReadOptions(private_node)),
       fusion_(options_.fusion),
-      gate_(options_.node.odometry.max_wait, kMaxWaitingScans),
+      gate_(options_.node.odometry.max_wait, kMaxWaitingScans,
+            options_.node.odometry.source != OdometrySource::kNone),
       watch_(node, private_node),
       tf_listener_(tf_, node),
       mount_broadcaster_(options_.node.publish_mounts

@@ -24,6 +24,34 @@ std::string DescribeTree(const tf2::BufferCore& tf, const std::string& wanted) {
   return text + "; did you mean " + similar + " instead of " + wanted + "?";
 }
 
+/// A frame and all above it.
+std::vector<std::string> Upwards(const tf2::BufferCore& tf, const std::string& frame) {
+  constexpr std::size_t kDeepest = 100;
+  std::vector<std::string> frames = {frame};
+  std::string parent;
+  while (frames.size() < kDeepest && tf._getParent(frames.back(), ros::Time(0), parent)) {
+    frames.push_back(parent);
+  }
+  return frames;
+}
+
+/// True if a frame is on the way between two others, ends included.
+bool IsBetween(const tf2::BufferCore& tf, const std::string& a, const std::string& b,
+               const std::string& frame) {
+  std::vector<std::string> above_a = Upwards(tf, a);
+  std::vector<std::string> above_b = Upwards(tf, b);
+  std::string meeting;
+  while (!above_a.empty() && !above_b.empty() && above_a.back() == above_b.back()) {
+    meeting = above_a.back();
+    above_a.pop_back();
+    above_b.pop_back();
+  }
+  const auto has = [&](const std::vector<std::string>& frames) {
+    return std::find(frames.begin(), frames.end(), frame) != frames.end();
+  };
+  return meeting == frame || has(above_a) || has(above_b);
+}
+
 }  // namespace
 
 FrameLookup LookUpSensor(const tf2::BufferCore& tf, const std::string& base_frame,
@@ -51,6 +79,20 @@ FrameLookup LookUpSensor(const tf2::BufferCore& tf, const std::string& base_fram
   } catch (const std::invalid_argument& error) {
     lookup.problem = "transform " + base + " -> " + sensor + ": " + error.what();
   }
+  return lookup;
+}
+
+FrameLookup LookUpOnBase(const tf2::BufferCore& tf, const std::string& base_frame,
+                         const std::string& frame, const std::string& odom_frame) {
+  const std::string on_base = StripSlash(frame);
+  const std::string base = StripSlash(base_frame);
+  const std::string odom = StripSlash(odom_frame);
+  if (on_base == base || !IsBetween(tf, on_base, base, odom)) {
+    return LookUpSensor(tf, base, on_base);
+  }
+  FrameLookup lookup;
+  lookup.problem = "no transform " + base + " -> " + on_base + " but by way of " + odom +
+                   ", in which the base moves";
   return lookup;
 }
 

@@ -203,7 +203,8 @@ class BadScansTest(unittest.TestCase):
         self.assertEqual(len(self.matches.messages), before + 3)
 
     def test_time_that_goes_back_for_good(self):
-        """More and more stale scans mean that a clock was set: everything starts over."""
+        """More and more stale scans mean that a clock was set: the matching starts over, and
+        the mapper goes on from where the encoders are."""
         self.expect_good(self.drive(3))
         cls = type(self)
         cls.time -= 100.0

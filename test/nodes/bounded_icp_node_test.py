@@ -146,8 +146,12 @@ class BoundedIcpNodeTest(unittest.TestCase):
             turn('wheel_centre', 'odom')
             self.console.said('frame of /other/odom: all right now', node='/other_icp')
             wait_for(lambda: (turn('wheel_centre', 'odom'), self.console.found(
-                'no transform wheel_centre -> base_link', 'taken for those of base_link',
+                'no transform base_link -> wheel_centre', 'taken for those of base_link',
                 node='/other_icp'))[1], 'the missing transform to be told')
+            # Where the base moves there is no place on it.
+            wait_for(lambda: (turn('odom', 'odom'), self.console.found(
+                'base of /other/odom: no transform base_link -> odom', node='/other_icp'))[1],
+                     'a frame that is not on the base to be told')
             static.unregister()
         finally:
             node.send_signal(signal.SIGINT)

@@ -18,4 +18,8 @@ struct FrameLookup {
 FrameLookup LookUpSensor(const tf2::BufferCore& tf, const std::string& base_frame,
                          const std::string& sensor_frame);
 
+/// The same for another frame of the base, but not by way of `odom_frame`, in which the base moves.
+FrameLookup LookUpOnBase(const tf2::BufferCore& tf, const std::string& base_frame,
+                         const std::string& frame, const std::string& odom_frame);
+
 }  // namespace scan_image_slam

@@ -16,8 +16,10 @@ void AddOdometryInput(OdometryInput* o, ParameterSet* set) {
        {"none", OdometrySource::kNone}},
       "where the encoders are read: topic odom, transform odom_frame -> base_frame, auto "
       "(TF while nothing comes on the topic), or none");
-  set->Add("odom_max_wait", &o->max_wait, "s", {0.0, 1.0},
-           "a scan waits so long for the encoders to reach its stamp; then they are extrapolated");
+  set->Add(
+      "odom_max_wait", &o->max_wait, "s", {0.0, 1.0},
+      "a scan waits so long for the encoders to reach its stamp, 0.2 s for the first reading of "
+      "all; then they are extrapolated");
 }
 
 void AddOdometryLimits(OdometryOptions* o, ParameterSet* set) {

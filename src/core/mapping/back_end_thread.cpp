@@ -116,6 +116,7 @@ void BackEndThread::Run() {
     if (stop_) return;
     const Job job = std::move(jobs_.front());
     jobs_.pop_front();
+    if (failure_) continue;  // nothing is known of the state that the graph was left in
     lock.unlock();
     BackEndNews found;
     std::exception_ptr failure;

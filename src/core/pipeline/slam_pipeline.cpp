@@ -18,7 +18,8 @@ SlamPipeline::SlamPipeline(const SlamOptions& options, OnResult on_result, RunSt
       bounded_icp_(options.bounded_icp),
       mapper_(options.mapper),
       back_end_(options.loop_closer),
-      gate_(options.fusion_node.odometry.max_wait, kMaxWaitingScans) {}
+      gate_(options.fusion_node.odometry.max_wait, kMaxWaitingScans,
+            options.fusion_node.odometry.source != OdometrySource::kNone) {}
 
 void SlamPipeline::Load(const MapState& state, MapUse use) {
   mapper_.Load(state, use);
@@ -82,7 +83,7 @@ void SlamPipeline::Process(const LaserScan& scan) {
     run_(Stage::kLoop, [&] {
       const bool was_lost = mapper_.lost();
       if (const auto location = back_end_.Look(*sighting)) mapper_.Locate(*location);
-      if (mapper_.lost() && !was_lost) bounded_icp_.Reset();  // its surroundings are others
+      if (mapper_.lost() && !was_lost) bounded_icp_.BeginAnew();  // its surroundings are others
     });
   }
   on_result_(result);

@@ -85,6 +85,13 @@ TEST_F(OdometryGateTest, TheFirstReadingIsWaitedForLonger) {
   EXPECT_EQ(PopAt(kNow + 151 * kMs), 1);
 }
 
+TEST_F(OdometryGateTest, WhereThereAreNoEncodersTheirFirstReadingIsNotWaitedFor) {
+  OdometryGate<int> gate(kMaxWait, 3, false);
+  gate.Push(1, kScan, kNow);
+  EXPECT_FALSE(gate.Pop(kNow + 19 * kMs, odometry_));
+  EXPECT_EQ(gate.Pop(kNow + 20 * kMs, odometry_), 1);
+}
+
 TEST_F(OdometryGateTest, WithoutEncodersOnlyTheFirstScanWaits) {
   gate_.Push(1, kScan, kNow);
   EXPECT_FALSE(PopAt(kNow + 199 * kMs));

@@ -51,7 +51,7 @@ class BackEndThread {
   void Load(GraphMemory graph);
 
   /// Writes a state, its graph being that of all keyframes given so far. The future holds why the
-  /// file could not be written; nothing if it was.
+  /// file could not be written; nothing if it was. It is broken once work has failed (see Take).
   std::future<std::string> Save(MapState state, std::string path);
 
   /// What was found since the last call. Throws what the work has thrown: there is no memory left.

@@ -20,9 +20,14 @@ namespace scan_image_slam {
 template <typename Item>
 class OdometryGate {
  public:
-  /// `max_wait` [s]; of more than `max_items` waiting scans the oldest are dropped.
-  OdometryGate(double max_wait, std::size_t max_items)
-      : max_wait_(max_wait), max_items_(max_items), patience_(max_wait) {}
+  /// `max_wait` [s]; of more than `max_items` waiting scans the oldest are dropped; `encoders`:
+  /// there may be some.
+  OdometryGate(double max_wait, std::size_t max_items, bool encoders = true)
+      : max_wait_(max_wait),
+        max_items_(max_items),
+        patience_(max_wait),
+        encoders_(encoders),
+        without_encoders_(!encoders) {}
 
   void set_max_wait(double max_wait) { max_wait_ = max_wait; }
 
@@ -76,7 +81,7 @@ class OdometryGate {
     waiting_.clear();
     silent_since_.reset();
     pace_ = ReadingPace();
-    without_encoders_ = false;
+    without_encoders_ = !encoders_;
   }
 
  private:
@@ -107,11 +112,12 @@ class OdometryGate {
   double max_wait_;
   std::size_t max_items_;
   double patience_;  ///< with the next scan [s]
+  bool encoders_;
+  bool without_encoders_;  ///< none, or their first reading was waited for in vain
   ReadingPace pace_;
   std::deque<Waiting> waiting_;
   Stamp looked_ = 0;
   std::optional<Stamp> silent_since_;
-  bool without_encoders_ = false;  ///< their first reading was waited for in vain
   int dropped_ = 0;
 };
 

@@ -26,7 +26,8 @@ class TimeGuard {
     const bool restarts = clock_went_back_ && !ahead;
     const bool stale = clock_went_back_ ? ahead : last_stamp_ && stamp <= *last_stamp_;
     // One that comes alone would make all that follow it stale.
-    const bool leaps = !clock_went_back_ && ahead && last_stamp_ && lead > lead_ + kMaxLeap;
+    const bool leaps = !clock_went_back_ && ahead && last_stamp_ &&
+                       stamp > *last_stamp_ + kMaxLeap && lead > lead_ + kMaxLeap;
     // A clock that was set makes every message so from then on.
     if ((stale || leaps) && ++odd_in_a_row_ < kPatience) {
       return leaps ? Verdict::kAhead : Verdict::kStale;
