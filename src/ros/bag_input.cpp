@@ -1,5 +1,6 @@
 #include "scan_image_slam/ros/bag_input.h"
 
+#include "scan_image_slam/core/recording/number_text.h"
 #include "scan_image_slam/ros/bag_check.h"
 #include "scan_image_slam/ros/bag_message.h"
 #include "scan_image_slam/ros/image_conversion.h"
@@ -20,16 +21,6 @@
 #include <tf2_msgs/TFMessage.h>
 
 namespace scan_image_slam {
-namespace {
-
-std::string Join(const std::vector<std::string>& words) {
-  std::string joined;
-  for (const std::string& word : words) joined += (joined.empty() ? "" : ", ") + word;
-  return joined.empty() ? "none" : joined;
-}
-
-}  // namespace
-
 void OpenBag(const std::string& path, rosbag::Bag* bag) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) throw BagError(path + ": can't be opened for reading");
@@ -102,7 +93,7 @@ std::string BagInput::Choose(const std::string& wanted, const std::string& usual
     std::string topic = WithSlash(wanted);
     if (std::find(candidates.begin(), candidates.end(), topic) != candidates.end()) return topic;
     throw BagError(path_ + ": there is no topic " + topic + " of type " + type + " (" + option +
-                   "); topics of this type: " + Join(candidates));
+                   "); topics of this type: " + ListText(candidates));
   }
   if (std::find(candidates.begin(), candidates.end(), usual) != candidates.end()) return usual;
   return candidates.size() == 1 ? candidates.front() : "";
@@ -112,7 +103,7 @@ void BagInput::ChooseTopics(const BagTopics& topics) {
   scan_topic_ = Choose(topics.scan, "/scan", kScanType, "--scan-topic");
   if (scan_topic_.empty()) {
     throw BagError(path_ + ": there is no topic /scan; topics of type " + kScanType + ": " +
-                   Join(TopicsOfType(kScanType)) + " (choose one with --scan-topic)");
+                   ListText(TopicsOfType(kScanType)) + " (choose one with --scan-topic)");
   }
   notes_.push_back("scans: " + scan_topic_);
 
@@ -144,7 +135,7 @@ void BagInput::ChooseTopics(const BagTopics& topics) {
   if (!image_topic_.empty() && camera_info_topic_.empty()) {
     throw BagError(path_ + ": there are images on " + image_topic_ +
                    " but no topic /camera_info; topics of type " + kCameraInfoType + ": " +
-                   Join(TopicsOfType(kCameraInfoType)) +
+                   ListText(TopicsOfType(kCameraInfoType)) +
                    " (choose one with --camera-info-topic, or use --no-images)");
   }
   notes_.push_back("images: " + (image_topic_.empty() ? NoImages() : image_topic_));
@@ -156,7 +147,8 @@ std::string BagInput::NoImages() const {
   const std::vector<std::string> compressed = TopicsOfType(kCompressedImageType);
   topics.insert(topics.end(), compressed.begin(), compressed.end());
   if (topics.empty()) return "none";
-  return "none; there are several topics of images, choose one with --image-topic: " + Join(topics);
+  return "none; there are several topics of images, choose one with --image-topic: " +
+         ListText(topics);
 }
 
 void BagInput::ReadTransforms() {
@@ -288,12 +280,15 @@ void BagInput::PlayOdometry(const rosbag::MessageInstance& message, SlamPipeline
   if (odometry == nullptr) return;
   // It may tell the pose of another of the base's frames; unknown ones are taken for the base.
   const std::string child = StripSlash(odometry->child_frame_id);
-  const FrameLookup base_from_child =
-      LookUpOnBase(*mounts_, base_frame_, child, odometry->header.frame_id);
-  pipeline->AddOdometry(
-      ToStamp(odometry->header.stamp),
-      ToPose2(odometry->pose.pose) * ToPose2(base_from_child.base_from_sensor).Inverse(),
-      static_cast<Stamp>(message.getTime().toNSec()));
+  if (driven_frame_ != child) {
+    const FrameLookup base_from_driven =
+        LookUpOnBase(*mounts_, base_frame_, child, odometry->header.frame_id);
+    driven_from_base_ = ToPose2(base_from_driven.base_from_sensor).Inverse();
+    driven_frame_ = child;
+  }
+  pipeline->AddOdometry(ToStamp(odometry->header.stamp),
+                        ToPose2(odometry->pose.pose) * driven_from_base_,
+                        static_cast<Stamp>(message.getTime().toNSec()));
 }
 
 void BagInput::PlayTransforms(const rosbag::MessageInstance& message, SlamPipeline* pipeline) {

@@ -155,7 +155,6 @@ void BoundedIcpNode::Publish(const MatchedMotion& match) {
 
 /// Without scans the pose rests on what else there is.
 MatchMode BoundedIcpNode::Mode() const {
-  constexpr double kLaserGap = 0.5;  // [s]
   const bool gap = (ros::WallTime::now() - matched_).toSec() > kLaserGap;
   return gap ? MatchMode::kCoasting : last_match_.mode;
 }

@@ -1,8 +1,11 @@
 #include "scan_image_slam/ros/package_files.h"
 
+#include "scan_image_slam/core/recording/number_text.h"
+
+#include <algorithm>
 #include <filesystem>
-#include <set>
 #include <stdexcept>
+#include <vector>
 
 namespace scan_image_slam {
 
@@ -27,16 +30,15 @@ std::string FindWorld(const std::string& world) {
   if (world.find('/') != std::string::npos) throw std::runtime_error(world + " does not exist");
   const std::filesystem::path folder =
       std::filesystem::path(PackageFile("config/worlds/laboratory.yaml")).parent_path();
-  std::set<std::string> names;
+  std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::filesystem::path& path = entry.path();
     if (path.extension() != ".yaml") continue;
     if (path.stem() == world || path.filename() == world) return path.string();
-    names.insert(path.stem().string());
+    names.push_back(path.stem().string());
   }
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  throw std::runtime_error("there is no world " + world + "; there are " + all +
+  std::sort(names.begin(), names.end());
+  throw std::runtime_error("there is no world " + world + "; there are " + ListText(names) +
                            ", or give the path of a file");
 }
 

@@ -1,6 +1,7 @@
 #include "scan_image_slam/ros/sensor_frames.h"
 
 #include "scan_image_slam/core/config/text_similarity.h"
+#include "scan_image_slam/core/recording/number_text.h"
 #include "scan_image_slam/ros/sensor_conversions.h"
 
 #include <algorithm>
@@ -16,8 +17,7 @@ std::string DescribeTree(const tf2::BufferCore& tf, const std::string& wanted) {
   tf._getFrameStrings(frames);
   if (frames.empty()) return "; TF is empty: is anything publishing transforms?";
   std::sort(frames.begin(), frames.end());
-  std::string text = "; TF holds ";
-  for (std::size_t i = 0; i < frames.size(); ++i) text += (i == 0 ? "" : ", ") + frames[i];
+  const std::string text = "; TF holds " + ListText(frames);
   if (std::find(frames.begin(), frames.end(), wanted) != frames.end()) return text;
   const std::string similar = MostSimilar(wanted, frames);
   if (!IsSimilar(wanted, similar)) return text;

@@ -102,7 +102,6 @@ struct Run {
     if (scans++ == 0) {
       first_stamp = result.pose.stamp;
     } else {
-      constexpr double kLaserGap = 0.5;  // longer without a scan: the pose rested on the rest [s]
       const double seconds = Seconds(result.pose.stamp - last_stamp);
       const MatchMode mode = seconds > kLaserGap ? MatchMode::kCoasting : result.match.mode;
       seconds_in_mode[ModeName(mode)] += seconds;

@@ -105,6 +105,8 @@ class BagInput {
   std::unique_ptr<tf2::BufferCore> mounts_;  ///< the usual transform between each two frames
   std::optional<Eigen::Isometry3d> base_from_camera_;
   bool camera_set_ = false;
+  std::optional<std::string> driven_frame_;  ///< whose poses the encoders tell
+  Pose2 driven_from_base_;
   std::map<std::string, int> refused_;
   int images_ = 0;
 };

@@ -21,6 +21,9 @@ enum class MatchMode {
   kCoasting,    ///< no laser: encoders alone, or constant velocity
 };
 
+/// After so long without a scan the pose rests on what else there is: kCoasting [s].
+constexpr double kLaserGap = 0.5;
+
 /// As in the report of a run and in diagnostics.
 inline const char* ModeName(MatchMode mode) {
   switch (mode) {

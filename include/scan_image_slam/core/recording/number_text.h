@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace scan_image_slam {
 
@@ -15,5 +16,8 @@ std::string ShareText(double share);
 
 /// `1 scan`, `2 scans`.
 std::string CountText(std::size_t count, const std::string& noun);
+
+/// `a, b, c`; `none` if there are no words.
+std::string ListText(const std::vector<std::string>& words);
 
 }  // namespace scan_image_slam

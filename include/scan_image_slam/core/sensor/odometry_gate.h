@@ -54,8 +54,7 @@ class OdometryGate {
     // Encoders that have let the last scan wait in vain, and have said nothing since, are silent.
     const bool silent = silent_since_ && *silent_since_ == odometry.newest_stamp();
     const std::optional<Stamp> due = pace_.Due(waiting_.front().stamp);
-    const bool in_vain =
-        !odometry.empty() && due && Seconds(*due - waiting_.front().arrival) > max_wait_;
+    const bool in_vain = due && Seconds(*due - waiting_.front().arrival) > max_wait_;
     if (!reached && !waited && !silent && !in_vain) return std::nullopt;
     if (reached) {
       silent_since_.reset();
