@@ -17,7 +17,7 @@ std::string DescribeTree(const tf2::BufferCore& tf, const std::string& wanted) {
   tf._getFrameStrings(frames);
   if (frames.empty()) return "; TF is empty: is anything publishing transforms?";
   std::sort(frames.begin(), frames.end());
-  const std::string text = "; TF holds " + ListText(frames);
+  std::string text = "; TF holds " + ListText(frames);
   if (std::find(frames.begin(), frames.end(), wanted) != frames.end()) return text;
   const std::string similar = MostSimilar(wanted, frames);
   if (!IsSimilar(wanted, similar)) return text;
