@@ -113,8 +113,8 @@ LocalMapMatcher::Alignment LocalMapMatcher::Align(const FusedModel& model,
 
   MotionPrior prior;
   prior.map_from_base = map_from_predicted;
-  prior.covariance =
-      TransportCovariance(filter_.PoseCovariance(), prediction.motion) + prediction.covariance;
+  prior.covariance = TransportCovariance(filter_.CovarianceFromAnchor(), prediction.motion) +
+                     prediction.covariance;
   prior.kernel = options_.prior_kernel;
   const auto refine_from = [&](const Pose2& start) {
     return Refine(standing, local_map_, options_.noise, prior, start, options_.refinement);
@@ -123,7 +123,7 @@ LocalMapMatcher::Alignment LocalMapMatcher::Align(const FusedModel& model,
   refined = refine_from(map_from_predicted * FromArcCoordinates(alignment.found.deviation));
   Velocity2 error = VelocityOverSweep(map_from_predicted.Inverse() * refined.map_from_base,
                                       prediction.dt, alignment.points);
-  if (refined.degenerate) error.x = error.y = 0.0;  // along a corridor the scan says nothing of it
+  if (refined.weak) error.x = error.y = 0.0;  // along a corridor the scan says nothing of it
   if (MattersForSweep(error, alignment.points)) {
     alignment.points = CorrectSweep(std::move(alignment.points), error);
     standing = Standing(alignment.points, refined.map_from_base);
@@ -237,12 +237,14 @@ std::vector<EdgeMatch> LocalMapMatcher::Filter(const Alignment& alignment,
   const Refinement& scan = alignment.refined;
   // The kernel finds wheels that slip where the laser sees it; in a corridor the edges must.
   filter_.Predict(map_from_last, prediction, prediction.covariance / scan.prior_weight);
+  if (was_degenerate_ && !scan.degenerate) filter_.Anchor();
+  was_degenerate_ = scan.degenerate;
   filter_.AddScan(scan.linearised_at, scan.information, scan.gradient);
   std::vector<EdgeMatch> matches(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) edges[i].id = static_cast<int>(i);
   edges = WithoutWalkers(std::move(edges), alignment.points, scan.map_from_base);
   const std::vector<ModelEdge> distinct = DistinctEdges(edges, options_.filter.edges);
-  if (scan.degenerate && filter_.Contradicts(distinct)) {
+  if (scan.weak && filter_.Contradicts(distinct)) {
     filter_.DoubtWay(prediction.window.half_distance / 3.0);
   }
   const std::vector<EdgeMatch> of_distinct = filter_.AddEdges(distinct);

@@ -1,6 +1,5 @@
 #include "scan_image_slam/core/matching/pose_filter.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -56,11 +55,12 @@ void PoseFilter::Start(const Pose2& map_from_base) {
   map_from_base_ = map_from_base;
   state_ = Eigen::VectorXd::Zero(kFirstEdge);
   state_[kScale] = 1.0;
+  anchor_covariance_.setZero();
   covariance_ = Eigen::MatrixXd::Zero(kFirstEdge, kFirstEdge);
   covariance_(kScale, kScale) = options_.scale_stddev * options_.scale_stddev;
   covariance_(kYaw, kYaw) = options_.camera_yaw_stddev * options_.camera_yaw_stddev;
   tracks_.clear();
-  newcomers_.clear();
+  newcomers_.Clear();
 }
 
 void PoseFilter::Predict(const Pose2& map_from_last, const MotionPrediction& prediction,
@@ -87,6 +87,16 @@ void PoseFilter::Predict(const Pose2& map_from_last, const MotionPrediction& pre
 void PoseFilter::DoubtWay(double stddev) {
   const Eigen::Vector2d along = Direction(map_from_base_.theta);
   covariance_.topLeftCorner<2, 2>() += stddev * stddev * along * along.transpose();
+}
+
+void PoseFilter::Anchor() {
+  anchor_covariance_ += covariance_.topLeftCorner<2, 2>();
+  Eigen::MatrixXd change = Eigen::MatrixXd::Identity(state_.size(), state_.size());
+  change.topLeftCorner<2, 2>().setZero();
+  for (int i = 0; i < edges(); ++i) {
+    change.block<2, 2>(IndexOf(i), 0) = -Eigen::Matrix2d::Identity();
+  }
+  covariance_ = change * covariance_ * change.transpose();
 }
 
 void PoseFilter::AddScan(const Pose2& map_from_base, const Eigen::Matrix3d& information,
@@ -169,30 +179,27 @@ void PoseFilter::BeginImage(double time_offset) {
 /// it too near: it only announces the edge, which begins with the next image. Else all edges would
 /// begin too near, and the way along a corridor be too short by thousandths.
 void PoseFilter::Welcome(const std::vector<const ModelEdge*>& unknown) {
-  std::vector<Newcomer> newcomers;
+  std::vector<const ModelEdge*> announced;
   for (const ModelEdge* edge : unknown) {
     if (tracks_.size() >= kMostEdges) break;
-    if (WasMet(*edge)) {
+    if (newcomers_.Take(PlaceOf(*edge), edge->sign, options_.edges.gate)) {
       Begin(*edge);
     } else if (std::hypot(edge->range, edge->range_by_bearing) <= options_.max_new_slant) {
-      newcomers.push_back({PlaceOf(*edge), edge->sign, way_});
+      announced.push_back(edge);
     }
   }
-  newcomers_.insert(newcomers_.end(), newcomers.begin(), newcomers.end());
-}
-
-/// True for an edge that was announced; it is no newcomer any more.
-bool PoseFilter::WasMet(const ModelEdge& edge) {
-  const Eigen::Vector2d place = PlaceOf(edge);
-  const auto newcomer = std::find_if(newcomers_.begin(), newcomers_.end(), [&](const Newcomer& n) {
-    return n.sign == edge.sign && (n.place - place).norm() < options_.edges.gate;
-  });
-  if (newcomer == newcomers_.end()) return false;
-  newcomers_.erase(newcomer);
-  return true;
+  for (const ModelEdge* edge : announced) newcomers_.Add(PlaceOf(*edge), edge->sign, way_);
 }
 
 Eigen::Matrix3d PoseFilter::PoseCovariance() const {
+  Eigen::Matrix3d covariance = CovarianceFromAnchor();
+  const Eigen::Rotation2Dd rotation(map_from_base_.theta);
+  covariance.topLeftCorner<2, 2>() +=
+      rotation.inverse() * anchor_covariance_ * rotation.toRotationMatrix();
+  return covariance;
+}
+
+Eigen::Matrix3d PoseFilter::CovarianceFromAnchor() const {
   const Eigen::Matrix3d rotation = MapFromBase(map_from_base_.theta);
   return rotation.transpose() * covariance_.topLeftCorner<3, 3>() * rotation;
 }
@@ -309,9 +316,7 @@ void PoseFilter::Begin(const ModelEdge& edge) {
 
 /// What has been out of view for a while leaves the filter.
 void PoseFilter::ForgetOld() {
-  newcomers_.erase(std::remove_if(newcomers_.begin(), newcomers_.end(),
-                                  [&](const Newcomer& n) { return n.seen < way_ - kPatience; }),
-                   newcomers_.end());
+  newcomers_.ForgetBefore(way_ - kPatience);
   std::vector<int> kept(kFirstEdge);
   std::iota(kept.begin(), kept.end(), 0);
   std::vector<Track> tracks;

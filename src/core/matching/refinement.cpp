@@ -45,26 +45,33 @@ double VarianceScale(std::vector<double> normalized_squares) {
   return std::clamp(*middle / kMedianOfChiSquare, kLeast, kMost);
 }
 
+/// A point on its element: the Jacobian of the residual n . (R p + t - q) by (forward, left, turn)
+/// in the base frame is (n_b, n_b x p) with n_b the normal seen from the base.
+struct PointRow {
+  Eigen::Vector2d point{0, 0};   // in the base frame [m]
+  Eigen::Vector2d normal{0, 0};  // in the base frame
+  double residual = 0.0;         // [m]
+  double weight = 0.0;           // [1/m^2]
+};
+using Rows = std::vector<PointRow>;
+
 struct ScanTerm {
-  NormalEquations equations;
-  double variance_scale = 1.0;  ///< for the sums that come next
-  int matched = 0;
+  Rows rows;                    // in the order of the scan
+  double variance_scale = 1.0;  // for the sums that come next
   double weighted_squares = 0.0;
   double weights = 0.0;
 };
 
-/// Sums over the points; the Jacobian of n . (R p + t - q) by (forward, left, turn) in the base
-/// frame is (n_b, n_b x p) with n_b the normal seen from the base.
-ScanTerm SumOverPoints(const std::vector<SurfacePoint>& points, const LocalMap& map,
-                       const RangeNoise& noise, const Pose2& map_from_base,
-                       const RefinementOptions& options, double gate, double variance_scale) {
+ScanTerm MatchPoints(const std::vector<SurfacePoint>& points, const LocalMap& map,
+                     const RangeNoise& noise, const Pose2& map_from_base,
+                     const RefinementOptions& options, double gate, double variance_scale) {
   ScanTerm term;
+  term.rows.reserve(points.size());
   std::vector<double> normalized_squares;
   normalized_squares.reserve(points.size());
   const RigidTransform2 transform(map_from_base);
   const RigidTransform2 rotate_back(Pose2{0.0, 0.0, -map_from_base.theta});
   const double model_variance = options.model_stddev * options.model_stddev;
-  double xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0, gx = 0, gy = 0, gt = 0;
   for (const SurfacePoint& p : points) {
     const Eigen::Vector2d place = transform * p.point;
     const SurfaceElement* element = map.Nearest(place);
@@ -84,26 +91,34 @@ ScanTerm SumOverPoints(const std::vector<SurfacePoint>& points, const LocalMap& 
     normalized_squares.push_back(squared / expected);
     const double variance = variance_scale * expected;
     const double w = CauchyWeight(squared, variance, options.kernel) / variance;
-    const double turn = p.point.x() * n.y() - p.point.y() * n.x();
+    term.rows.push_back({p.point, n, residual, w});
+    term.weighted_squares += w * squared;
+    term.weights += w;
+  }
+  term.variance_scale = VarianceScale(std::move(normalized_squares));
+  return term;
+}
+
+NormalEquations SumOver(const Rows& rows, double correlation) {
+  double xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0, gx = 0, gy = 0, gt = 0;
+  for (const PointRow& row : rows) {
+    const Eigen::Vector2d& n = row.normal;
+    const double turn = row.point.x() * n.y() - row.point.y() * n.x();
+    const double w = row.weight / correlation;
     xx += w * n.x() * n.x();
     xy += w * n.x() * n.y();
     yy += w * n.y() * n.y();
     xt += w * n.x() * turn;
     yt += w * n.y() * turn;
     tt += w * turn * turn;
-    gx += w * n.x() * residual;
-    gy += w * n.y() * residual;
-    gt += w * turn * residual;
-    term.weighted_squares += w * squared;
-    term.weights += w;
-    ++term.matched;
+    gx += w * n.x() * row.residual;
+    gy += w * n.y() * row.residual;
+    gt += w * turn * row.residual;
   }
-  term.variance_scale = VarianceScale(std::move(normalized_squares));
-  term.equations.information << xx, xy, xt, xy, yy, yt, xt, yt, tt;
-  term.equations.gradient << gx, gy, gt;
-  term.equations.information /= options.correlation;
-  term.equations.gradient /= options.correlation;
-  return term;
+  NormalEquations sum;
+  sum.information << xx, xy, xt, xy, yy, yt, xt, yt, tt;
+  sum.gradient << gx, gy, gt;
+  return sum;
 }
 
 struct EdgeTerm {
@@ -152,6 +167,53 @@ NormalEquations Without(const Eigen::Vector2d& direction, const NormalEquations&
   return {project * equations.information * project, project * equations.gradient};
 }
 
+/// What a scan tells, and the direction that is known much worse than the one across it.
+struct ScanEvidence {
+  NormalEquations equations;
+  std::optional<Eigen::Vector2d> weak;
+  bool told = true;  ///< there are walls that face the weak direction
+};
+
+/// Parts the points on walls that face a direction, such as the end of a corridor, from all others.
+/// What is no wider than people may walk.
+std::pair<Rows, Rows> PartFacingWalls(const Rows& rows, const Eigen::Vector2d& direction) {
+  constexpr double kLeastCosine = 0.5;
+  constexpr double kLeastWidth = 0.8;  // [m]
+  constexpr double kWidestGap = 0.3;   // between points of one wall [m]
+  constexpr std::size_t kFewestPoints = 5;
+  Rows facing_walls, others, group;
+  const auto end_group = [&] {
+    const bool is_wall = group.size() >= kFewestPoints &&
+                         (group.back().point - group.front().point).norm() >= kLeastWidth;
+    Rows& part = is_wall ? facing_walls : others;
+    part.insert(part.end(), group.begin(), group.end());
+    group.clear();
+  };
+  for (const PointRow& row : rows) {
+    const bool faces = std::abs(row.normal.dot(direction)) >= kLeastCosine;
+    if (!group.empty() && !(faces && (row.point - group.back().point).norm() < kWidestGap)) {
+      end_group();
+    }
+    (faces ? group : others).push_back(row);
+  }
+  if (!group.empty()) end_group();
+  return {facing_walls, others};
+}
+
+/// Of the weak direction only walls that face it tell anything: what those along it seem to tell is
+/// noise of their normals.
+ScanEvidence Weigh(const Rows& rows, const RefinementOptions& options) {
+  ScanEvidence evidence;
+  evidence.equations = SumOver(rows, options.correlation);
+  evidence.weak = WeakDirection(evidence.equations.information, options.degenerate_ratio);
+  if (!evidence.weak) return evidence;
+  const auto [facing_walls, others] = PartFacingWalls(rows, *evidence.weak);
+  evidence.told = !facing_walls.empty();
+  evidence.equations = Without(*evidence.weak, SumOver(others, options.correlation));
+  evidence.equations += SumOver(facing_walls, options.correlation);
+  return evidence;
+}
+
 struct PriorTerm {
   NormalEquations equations;
   double weight = 1.0;
@@ -198,25 +260,24 @@ Refinement Refine(const std::vector<SurfacePoint>& points, const LocalMap& map,
   for (int i = 0; i <= options.max_iterations; ++i) {
     const double gate = i < kWideIterations ? 2.0 * options.gate : options.gate;
     const Pose2 pose = result.map_from_base;
-    const ScanTerm scan = SumOverPoints(points, map, noise, pose, options, gate, variance_scale);
+    const ScanTerm scan = MatchPoints(points, map, noise, pose, options, gate, variance_scale);
     variance_scale = scan.variance_scale;
+    result.matched = static_cast<int>(scan.rows.size());
+    result.rms = scan.weights > 0.0 ? std::sqrt(scan.weighted_squares / scan.weights) : 0.0;
     const EdgeTerm edge = evidence == nullptr ? EdgeTerm() : SumOverEdges(*evidence, pose, options);
-    NormalEquations equations = scan.equations;
-    const auto weak = WeakDirection(equations.information, options.degenerate_ratio);
-    // What little the scan says of it is noise of the normals.
-    if (weak) equations = Without(*weak, equations);
+    result.matched_edges = edge.matched;
+    const ScanEvidence told = Weigh(scan.rows, options);
+    NormalEquations equations = told.equations;
     equations += edge.equations;
     result.information = equations.information;
     result.gradient = equations.gradient;
     result.linearised_at = pose;
-    result.degenerate = weak.has_value();
-    result.degenerate_direction = weak ? std::atan2(weak->y(), weak->x()) : 0.0;
+    result.weak = told.weak.has_value();
+    result.degenerate = !told.told;
+    result.degenerate_direction = told.weak ? std::atan2(told.weak->y(), told.weak->x()) : 0.0;
     const PriorTerm before = PriorAt(prior, prior_information, pose);
     equations += before.equations;
     result.prior_weight = before.weight;
-    result.matched = scan.matched;
-    result.matched_edges = edge.matched;
-    result.rms = scan.weights > 0.0 ? std::sqrt(scan.weighted_squares / scan.weights) : 0.0;
     if (i == options.max_iterations) break;
     result.covariance = equations.information.inverse();
     const Eigen::Vector3d step = -equations.information.ldlt().solve(equations.gradient);

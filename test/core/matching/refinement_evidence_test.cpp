@@ -88,6 +88,42 @@ TEST(RefineEvidence, IsNotDegenerateWhereTheCorridorEnds) {
   EXPECT_NEAR(result.map_from_base.x, 0.3, 0.001);
 }
 
+TEST(RefineEvidence, AFewPointsOnAFarEndTellTheWay) {
+  // 9 of 720 beams meet the end of a corridor that is 25 m off.
+  const Room end = PlainCorridor() + Room{{{25.0, -1.0}, {25.0, 1.0}}};
+  RefinementProblem problem;
+  problem.map.Insert(SurfaceSeen(end, kOrigin), kOrigin);
+  problem.points = SurfaceSeen(end, {0.03, 0.0, 0.0});
+  const Refinement result = problem.From(kOrigin);
+  EXPECT_TRUE(result.weak);
+  EXPECT_FALSE(result.degenerate);
+  EXPECT_NEAR(result.map_from_base.x, 0.03, 0.001);
+  EXPECT_GT(result.covariance(0, 0), 10.0 * result.covariance(1, 1));
+}
+
+/// A thing that faces along the corridor, 3 m ahead: points at these places across it [m].
+Refinement SeenInCorridor(const std::vector<double>& places) {
+  RefinementProblem problem = CorridorProblem(kOrigin);
+  std::vector<SurfacePoint> facing;
+  facing.reserve(places.size());
+  for (const double y : places) facing.push_back(PointAhead(3.0, y));
+  problem.map.Insert(facing, kOrigin);
+  problem.points.insert(problem.points.end(), facing.begin(), facing.end());
+  return problem.From({0.02, 0.0, 0.0});
+}
+
+TEST(RefineEvidence, AWallThatFacesTheWayTellsOfItUnlessPeopleAreAsWide) {
+  EXPECT_FALSE(SeenInCorridor({-0.4, -0.2, 0.0, 0.2, 0.41}).degenerate);
+  EXPECT_TRUE(SeenInCorridor({-0.4, -0.13, 0.14, 0.41}).degenerate);    // four points
+  EXPECT_TRUE(SeenInCorridor({-0.3, -0.1, 0.0, 0.1, 0.3}).degenerate);  // no wider than people
+  EXPECT_TRUE(SeenInCorridor({-0.5, -0.4, -0.3, 0.1, 0.3, 0.5}).degenerate);  // two of them
+}
+
+TEST(RefineEvidence, WhatTellsNothingOfTheWayGivesNoInformationOfIt) {
+  EXPECT_LT(SeenInCorridor({-0.3, -0.1, 0.0, 0.1, 0.3}).information(0, 0), 1.0);
+  EXPECT_GT(SeenInCorridor({-0.4, -0.2, 0.0, 0.2, 0.41}).information(0, 0), 100.0);
+}
+
 TEST(RefineEvidence, ComparesTheAxesByTheGivenRatio) {
   // 36 times as many points look along x as along y.
   RefinementProblem problem;

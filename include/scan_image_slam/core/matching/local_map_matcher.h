@@ -87,6 +87,7 @@ class LocalMapMatcher {
   PoseFilter filter_;
   Pose2 map_from_inserted_;
   int inserted_ = 0;
+  bool was_degenerate_ = false;
   int unmatched_ = 0;                   ///< scans since the last that showed something known
   int blind_ = 0;                       ///< scans in a row that were left undecided
   double way_ = 0.0;                    ///< driven so far [m]

@@ -5,6 +5,7 @@
 #include "scan_image_slam/core/matching/edge_map.h"
 #include "scan_image_slam/core/matching/edge_match.h"
 #include "scan_image_slam/core/matching/motion_predictor.h"
+#include "scan_image_slam/core/matching/newcomers.h"
 
 #include <cmath>
 #include <vector>
@@ -53,6 +54,11 @@ class PoseFilter {
   /// The wheels have slipped: the way along is uncertain by so much more [m].
   void DoubtWay(double stddev);
 
+  /// Walls come into view that tell of a direction of which nothing has told. They enter the map at
+  /// the pose of now and are off as it is: from here on all is measured from this place, and how
+  /// far it may be off is kept apart.
+  void Anchor();
+
   /// Takes what a scan tells: `information` of the pose, of (forward, left, turn) in the frame of
   /// `map_from_base`, and the gradient of its cost there. Directions without information count for
   /// nothing.
@@ -70,6 +76,8 @@ class PoseFilter {
   const Pose2& map_from_base() const { return map_from_base_; }
   /// Of (forward, left, turn) in the frame of the base [m, m, rad].
   Eigen::Matrix3d PoseCovariance() const;
+  /// The same, but of the pose relative to the anchor, and so to the walls around.
+  Eigen::Matrix3d CovarianceFromAnchor() const;
   LearnedCalibration learned() const;
   int edges() const { return static_cast<int>(tracks_.size()); }  ///< in view
 
@@ -93,12 +101,6 @@ class PoseFilter {
     double bearing_stddev = 0.0;  // smoothed [rad]
     double shift_variance = 0.0;  // of the place where it seems to be, along its surface [m^2]
   };
-  /// An edge that was seen near enough for the first time.
-  struct Newcomer {
-    Eigen::Vector2d place{0, 0};
-    int sign = 0;
-    double seen = 0.0;  // way
-  };
   /// What an edge should be, and how it depends on the state.
   struct Sight {
     double innovation = 0.0;   // [rad]
@@ -116,7 +118,6 @@ class PoseFilter {
   void Update(double innovation, double variance, const Eigen::VectorXd& jacobian);
   void BeginImage(double time_offset);
   void Welcome(const std::vector<const ModelEdge*>& unknown);
-  bool WasMet(const ModelEdge& edge);
   void Begin(const ModelEdge& edge);
   void LetShift(const ModelEdge& edge, int id);
   double ShiftVariance(double bearing_stddev, const Eigen::Vector2d& along) const;
@@ -126,8 +127,9 @@ class PoseFilter {
   Pose2 map_from_base_;
   Eigen::VectorXd state_;
   Eigen::MatrixXd covariance_;
+  Eigen::Matrix2d anchor_covariance_ = Eigen::Matrix2d::Zero();  // of its place in the map [m^2]
   std::vector<Track> tracks_;
-  std::vector<Newcomer> newcomers_;
+  Newcomers newcomers_;
   double way_ = 0.0;
 };
 

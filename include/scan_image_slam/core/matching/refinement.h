@@ -47,7 +47,8 @@ struct Refinement {
   int matched = 0;                    ///< points that found an element
   int matched_edges = 0;              ///< edges that found a landmark
   double rms = 0.0;                   ///< weighted residual across the walls [m]
-  bool degenerate = false;            ///< the scan left one direction to prior and edges
+  bool weak = false;                  ///< of one direction only the few points tell that face it
+  bool degenerate = false;            ///< the scan left that direction to prior and edges
   double degenerate_direction = 0.0;  ///< in the base frame [rad]
 };
 
