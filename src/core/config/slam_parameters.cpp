@@ -162,8 +162,10 @@ void AddLocalMapMatcher(LocalMapMatcherOptions* o, ParameterSet* set) {
            "points of a scan that err together, as if they were one");
   set->Add("refinement/min_normal_cosine", &r.min_normal_cosine, "-", {-1.0, 1.0},
            "between the normals of a point and its element");
-  set->Add("refinement/degenerate_ratio", &r.degenerate_ratio, "-", kFraction,
-           "of the information along and across; below it a direction is left to the prediction");
+  set->Add(
+      "refinement/degenerate_ratio", &r.degenerate_ratio, "-", kFraction,
+      "of the information along and across; below it only walls that face a direction, wider than "
+      "people, tell of it, and without them the prediction");
   set->Add("refinement/prior_kernel", &o->prior_kernel, "-", kPositive,
            "encoders that are off by so many standard deviations count half");
 }

@@ -90,12 +90,12 @@ void PoseFilter::DoubtWay(double stddev) {
 }
 
 void PoseFilter::Anchor() {
-  anchor_covariance_ += covariance_.topLeftCorner<2, 2>();
+  const Eigen::Vector2d along = LeastKnownDirection();
+  const Eigen::Matrix2d project = along * along.transpose();
+  anchor_covariance_ += project * covariance_.topLeftCorner<2, 2>() * project;
   Eigen::MatrixXd change = Eigen::MatrixXd::Identity(state_.size(), state_.size());
-  change.topLeftCorner<2, 2>().setZero();
-  for (int i = 0; i < edges(); ++i) {
-    change.block<2, 2>(IndexOf(i), 0) = -Eigen::Matrix2d::Identity();
-  }
+  change.topLeftCorner<2, 2>() -= project;
+  for (int i = 0; i < edges(); ++i) change.block<2, 2>(IndexOf(i), 0) = -project;
   covariance_ = change * covariance_ * change.transpose();
 }
 

@@ -38,6 +38,7 @@ TEST(PoseFilterAnchor, LeavesThePoseAndHowWellItIsKnown) {
   EXPECT_NEAR(filter.PoseCovariance()(1, 1), covariance(1, 1), 1e-12);
   EXPECT_NEAR(filter.PoseCovariance()(0, 1), covariance(0, 1), 1e-12);
   EXPECT_NEAR(filter.CovarianceFromAnchor()(0, 0), 0.0, 1e-12);
+  EXPECT_NEAR(filter.CovarianceFromAnchor()(1, 1), covariance(1, 1), 1e-12);
   EXPECT_NEAR(filter.CovarianceFromAnchor()(2, 2), covariance(2, 2), 1e-12);
 }
 

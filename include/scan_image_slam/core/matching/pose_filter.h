@@ -55,8 +55,8 @@ class PoseFilter {
   void DoubtWay(double stddev);
 
   /// Walls come into view that tell of a direction of which nothing has told. They enter the map at
-  /// the pose of now and are off as it is: from here on all is measured from this place, and how
-  /// far it may be off is kept apart.
+  /// the pose of now and are off as it is: from here on the way in the least known direction is
+  /// measured from this place, and how far it may be off is kept apart.
   void Anchor();
 
   /// Takes what a scan tells: `information` of the pose, of (forward, left, turn) in the frame of
@@ -76,7 +76,7 @@ class PoseFilter {
   const Pose2& map_from_base() const { return map_from_base_; }
   /// Of (forward, left, turn) in the frame of the base [m, m, rad].
   Eigen::Matrix3d PoseCovariance() const;
-  /// The same, but of the pose relative to the anchor, and so to the walls around.
+  /// The same, but relative to the anchor, and so to the walls around.
   Eigen::Matrix3d CovarianceFromAnchor() const;
   LearnedCalibration learned() const;
   int edges() const { return static_cast<int>(tracks_.size()); }  ///< in view

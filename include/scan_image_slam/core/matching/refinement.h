@@ -20,8 +20,7 @@ struct RefinementOptions {
   double correlation = 10.0;   ///< points of a scan that err together, as if one [-]
   double edge_correlation = 10.0;  ///< edges of successive images that err together, as if one [-]
   double min_normal_cosine = 0.7;  ///< between the normals of a point and its element [-]
-  double degenerate_ratio =
-      0.03;  ///< of the eigenvalues; below, the weak direction is left out [-]
+  double degenerate_ratio = 0.03;  ///< of the eigenvalues; below, a direction is weak [-]
   /// Throws std::invalid_argument, naming the field, if a value is out of range.
   void Validate() const;
 };
@@ -47,8 +46,8 @@ struct Refinement {
   int matched = 0;                    ///< points that found an element
   int matched_edges = 0;              ///< edges that found a landmark
   double rms = 0.0;                   ///< weighted residual across the walls [m]
-  bool weak = false;                  ///< of one direction only the few points tell that face it
-  bool degenerate = false;            ///< the scan left that direction to prior and edges
+  bool weak = false;                  ///< one direction is known much worse than the one across it
+  bool degenerate = false;            ///< no wall faces it, so it was left to prior and edges
   double degenerate_direction = 0.0;  ///< in the base frame [rad]
 };
 
