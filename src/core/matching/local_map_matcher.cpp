@@ -40,9 +40,10 @@ Velocity2 VelocityOverSweep(const Pose2& motion, double dt,
   return VelocityOf(motion, std::max(0.5 * dt, dt + late));
 }
 
-/// True if a wrong velocity displaces the sweep by more than a fraction of the laser's precision.
+/// True if a wrong velocity displaces the sweep by more than what a scan can tell: half of its
+/// turn would be an error of the heading.
 bool MattersForSweep(const Velocity2& velocity, const std::vector<SurfacePoint>& points) {
-  constexpr double kAngle = 0.001;     // [rad]
+  constexpr double kAngle = 1e-4;      // [rad]
   constexpr double kDistance = 0.002;  // [m]
   const double sweep = points.empty() ? 0.0 : std::abs(points.back().time_offset);
   return std::abs(velocity.theta) * sweep > kAngle ||
@@ -121,17 +122,25 @@ LocalMapMatcher::Alignment LocalMapMatcher::Align(const FusedModel& model,
   };
   Refinement& refined = alignment.refined;
   refined = refine_from(map_from_predicted * FromArcCoordinates(alignment.found.deviation));
-  Velocity2 error = VelocityOverSweep(map_from_predicted.Inverse() * refined.map_from_base,
+  // Off the motion that the sweep was corrected with: encoders count steps, so over times as short
+  // as these they tell one velocity of the sweep and another of the way between two scans.
+  const Pose2 map_from_swept =
+      map_from_predicted * prediction.motion.Inverse() *
+      Move(model.sweep_velocity + alignment.sweep_correction, prediction.dt);
+  Velocity2 error = VelocityOverSweep(map_from_swept.Inverse() * refined.map_from_base,
                                       prediction.dt, alignment.points);
   if (refined.weak) error.x = error.y = 0.0;  // along a corridor the scan says nothing of it
+  alignment.edge_correction = alignment.sweep_correction;
   if (MattersForSweep(error, alignment.points)) {
     alignment.points = CorrectSweep(std::move(alignment.points), error);
     standing = Standing(alignment.points, refined.map_from_base);
     alignment.sweep_correction = alignment.sweep_correction + error;
     refined = refine_from(refined.map_from_base);
-    error = Velocity2();
   }
-  alignment.edge_correction = alignment.sweep_correction + error;
+  Velocity2 of_encoders =
+      VelocityOf(map_from_predicted.Inverse() * refined.map_from_base, prediction.dt);
+  if (refined.weak) of_encoders.x = of_encoders.y = 0.0;
+  alignment.edge_correction = alignment.edge_correction + of_encoders;
   alignment.standing = static_cast<int>(standing.size());
   return alignment;
 }

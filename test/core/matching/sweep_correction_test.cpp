@@ -75,10 +75,23 @@ TEST(SweepCorrection, FindsTheWayThatTheEncodersHaveMissed) {
   EXPECT_NEAR(outcome.deviation.distance, 0.04, 0.001);
 }
 
-TEST(SweepCorrection, LeavesAloneWhatIsFinerThanTheLaser) {
-  // 20 ms at 0.04 rad/s are 0.8 mrad, less than a bearing's deviation.
-  const MatchOutcome outcome = MatchBlindEncoders(-0.02, {0.0, 0.0, 0.04});
+TEST(SweepCorrection, LeavesAloneWhatIsFinerThanAScanCanTell) {
+  // 20 ms at 4 mrad/s are 0.08 mrad.
+  const MatchOutcome outcome = MatchBlindEncoders(-0.02, {0.0, 0.0, 0.004});
   EXPECT_EQ(outcome.sweep_correction.theta, 0.0);
+}
+
+TEST(SweepCorrection, AStepOfTheEncodersDuringTheSweepTurnsNothing) {
+  // The robot stands. Encoders whose count changes by one tell 0.05 rad/s for the time of the
+  // sweep, but nothing between the scans. Uncorrected, 1 mrad of heading would be wrong.
+  LocalMapMatcher matcher{LocalMapMatcherOptions()};
+  matcher.Start(ModelOf(kSymmetricRoom, kOrigin, 0, TestLaser()), kOrigin);
+  TestLaser laser = SweepingLaser(0.0, {});
+  laser.assumed_velocity = {0.0, 0.0, 0.05};
+  const MatchOutcome outcome =
+      matcher.Match(ModelOf(kSymmetricRoom, kOrigin, 1, laser), kOrigin, Predicted(kOrigin));
+  EXPECT_NEAR(outcome.sweep_correction.theta, -0.05, 0.002);
+  EXPECT_NEAR(outcome.deviation.angle, 0.0, 5e-5);
 }
 
 TEST(SweepCorrection, ImprovesAScanStampedAtItsFirstBeam) {

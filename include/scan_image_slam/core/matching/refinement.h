@@ -17,7 +17,7 @@ struct RefinementOptions {
   double along_gate = 0.07;    ///< the same along the wall: a little beyond the next element [m]
   double model_stddev = 0.02;  ///< roughness and what else the map leaves out [m]
   double kernel = 3.0;         ///< residuals of so many standard deviations count half [-]
-  double correlation = 10.0;   ///< points of a scan that err together, as if one [-]
+  double correlation = 4.0;    ///< points of a scan that err together, as if one [-]
   double edge_correlation = 10.0;  ///< edges of successive images that err together, as if one [-]
   double min_normal_cosine = 0.7;  ///< between the normals of a point and its element [-]
   double degenerate_ratio = 0.03;  ///< of the eigenvalues; below, a direction is weak [-]
