@@ -100,8 +100,9 @@ SearchResult LocalMapMatcher::Search(const std::vector<SurfacePoint>& points,
 }
 
 LocalMapMatcher::Alignment LocalMapMatcher::Align(const FusedModel& model,
-                                                  const Pose2& map_from_predicted,
+                                                  const Pose2& map_from_last,
                                                   const MotionPrediction& prediction) const {
+  const Pose2 map_from_predicted = map_from_last * prediction.motion;
   Alignment alignment;
   alignment.points = EstimateSurface(model, options_.surface, options_.noise);
   if (!prediction.from_encoders) {
@@ -122,25 +123,27 @@ LocalMapMatcher::Alignment LocalMapMatcher::Align(const FusedModel& model,
   };
   Refinement& refined = alignment.refined;
   refined = refine_from(map_from_predicted * FromArcCoordinates(alignment.found.deviation));
-  // Off the motion that the sweep was corrected with: encoders count steps, so over times as short
-  // as these they tell one velocity of the sweep and another of the way between two scans.
+  // How wrong a velocity was that led from the last pose to another than was found. Along a
+  // corridor the scan says nothing of it.
+  const auto believed = [&](const Velocity2& error) {
+    return refined.weak ? Velocity2{0.0, 0.0, error.theta} : error;
+  };
+  // Encoders count steps, so over times as short as these they tell one velocity of the sweep and
+  // another of the way between two scans.
   const Pose2 map_from_swept =
-      map_from_predicted * prediction.motion.Inverse() *
-      Move(model.sweep_velocity + alignment.sweep_correction, prediction.dt);
-  Velocity2 error = VelocityOverSweep(map_from_swept.Inverse() * refined.map_from_base,
-                                      prediction.dt, alignment.points);
-  if (refined.weak) error.x = error.y = 0.0;  // along a corridor the scan says nothing of it
+      map_from_last * Move(model.sweep_velocity + alignment.sweep_correction, prediction.dt);
+  const Velocity2 of_sweep = believed(VelocityOverSweep(
+      map_from_swept.Inverse() * refined.map_from_base, prediction.dt, alignment.points));
   alignment.edge_correction = alignment.sweep_correction;
-  if (MattersForSweep(error, alignment.points)) {
-    alignment.points = CorrectSweep(std::move(alignment.points), error);
+  if (MattersForSweep(of_sweep, alignment.points)) {
+    alignment.points = CorrectSweep(std::move(alignment.points), of_sweep);
     standing = Standing(alignment.points, refined.map_from_base);
-    alignment.sweep_correction = alignment.sweep_correction + error;
+    alignment.sweep_correction = alignment.sweep_correction + of_sweep;
     refined = refine_from(refined.map_from_base);
   }
-  Velocity2 of_encoders =
-      VelocityOf(map_from_predicted.Inverse() * refined.map_from_base, prediction.dt);
-  if (refined.weak) of_encoders.x = of_encoders.y = 0.0;
-  alignment.edge_correction = alignment.edge_correction + of_encoders;
+  const Velocity2 of_motion =
+      believed(VelocityOf(map_from_predicted.Inverse() * refined.map_from_base, prediction.dt));
+  alignment.edge_correction = alignment.edge_correction + of_motion;
   alignment.standing = static_cast<int>(standing.size());
   return alignment;
 }
@@ -148,7 +151,7 @@ LocalMapMatcher::Alignment LocalMapMatcher::Align(const FusedModel& model,
 MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_from_last,
                                     const MotionPrediction& prediction) {
   const Pose2 map_from_predicted = map_from_last * prediction.motion;
-  const Alignment alignment = Align(model, map_from_predicted, prediction);
+  const Alignment alignment = Align(model, map_from_last, prediction);
   const Refinement& refined = alignment.refined;
   MatchOutcome outcome;
   outcome.sweep_correction = alignment.sweep_correction;

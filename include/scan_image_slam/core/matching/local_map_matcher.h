@@ -66,7 +66,7 @@ class LocalMapMatcher {
       return refined.matched > 0 && refined.matched >= fraction * standing;
     }
   };
-  Alignment Align(const FusedModel& model, const Pose2& map_from_predicted,
+  Alignment Align(const FusedModel& model, const Pose2& map_from_last,
                   const MotionPrediction& prediction) const;
   SearchResult Search(const std::vector<SurfacePoint>& points, const Pose2& map_from_predicted,
                       const MotionPrediction& prediction) const;
@@ -87,7 +87,7 @@ class LocalMapMatcher {
   PoseFilter filter_;
   Pose2 map_from_inserted_;
   int inserted_ = 0;
-  bool was_degenerate_ = false;
+  bool was_degenerate_ = false;         ///< the last scan left a direction to others
   int unmatched_ = 0;                   ///< scans since the last that showed something known
   int blind_ = 0;                       ///< scans in a row that were left undecided
   double way_ = 0.0;                    ///< driven so far [m]
