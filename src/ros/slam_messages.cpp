@@ -43,6 +43,16 @@ void RequireFinite(std::initializer_list<double> numbers, const std::string& thi
   }
 }
 
+/// Throws std::invalid_argument, naming the thing, unless a base may move like that.
+Velocity2 PlausibleVelocity(double x, double y, double yaw, const std::string& thing) {
+  for (const double velocity : {x, y, yaw}) {
+    if (!(std::abs(velocity) <= kFastest)) {
+      throw std::invalid_argument(thing + " is not finite, or no robot's");
+    }
+  }
+  return {x, y, yaw};
+}
+
 ModelEdge FromMessage(const VerticalEdge& message) {
   RequireFinite({message.camera_x, message.camera_y, message.bearing, message.bearing_stddev,
                  message.range, message.range_stddev, message.range_by_bearing, message.time_offset,
@@ -115,17 +125,11 @@ FusedModel FromMessage(const IcpModel& message) {
   if (!IsPlausiblePosition(message.laser_x, message.laser_y) || !std::isfinite(message.laser_yaw)) {
     throw std::invalid_argument("the pose of the laser is not finite, or out of this world");
   }
-  for (const double velocity :
-       {message.sweep_velocity_x, message.sweep_velocity_y, message.sweep_velocity_yaw}) {
-    if (!(std::abs(velocity) <= kFastest)) {
-      throw std::invalid_argument("the velocity is not finite, or no robot's");
-    }
-  }
   model.stamp = ToStamp(message.header.stamp);
   model.base_from_laser = {message.laser_x, message.laser_y, message.laser_yaw};
   model.upside_down = message.upside_down;
-  model.sweep_velocity = {message.sweep_velocity_x, message.sweep_velocity_y,
-                          message.sweep_velocity_yaw};
+  model.sweep_velocity = PlausibleVelocity(message.sweep_velocity_x, message.sweep_velocity_y,
+                                           message.sweep_velocity_yaw, "the velocity");
   model.has_image = message.has_image;
   model.beams.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -187,6 +191,9 @@ ScanMatch ToMessage(const MatchedMotion& match, const std::string& base_frame) {
   message.sweep_correction_x = match.sweep_correction.x;
   message.sweep_correction_y = match.sweep_correction.y;
   message.sweep_correction_yaw = match.sweep_correction.theta;
+  message.edge_correction_x = match.edge_correction.x;
+  message.edge_correction_y = match.edge_correction.y;
+  message.edge_correction_yaw = match.edge_correction.theta;
   message.has_odometry = match.odom_from_base.has_value();
   if (match.odom_from_base) message.odom_pose = ToPose2D(*match.odom_from_base);
   return message;
@@ -208,9 +215,6 @@ MatchedMotion FromMessage(const ScanMatch& message) {
       match.covariance(row, column) = message.covariance[3 * row + column];
     }
   }
-  RequireFinite(
-      {message.sweep_correction_x, message.sweep_correction_y, message.sweep_correction_yaw},
-      "the correction of the velocity");
   if (!match.covariance.allFinite()) {
     throw std::invalid_argument("the covariance is not finite");
   }
@@ -234,8 +238,12 @@ MatchedMotion FromMessage(const ScanMatch& message) {
     match.edges.push_back({static_cast<EdgeUse>(message.edge_uses[i]), message.edge_residuals[i]});
   }
   match.degenerate_direction = message.degenerate_direction;
-  match.sweep_correction = {message.sweep_correction_x, message.sweep_correction_y,
-                            message.sweep_correction_yaw};
+  match.sweep_correction =
+      PlausibleVelocity(message.sweep_correction_x, message.sweep_correction_y,
+                        message.sweep_correction_yaw, "the correction of the sweep's velocity");
+  match.edge_correction =
+      PlausibleVelocity(message.edge_correction_x, message.edge_correction_y,
+                        message.edge_correction_yaw, "the correction of the edges' velocity");
   if (message.has_odometry) {
     match.odom_from_base = FromPose2D(message.odom_pose, "the odometry's pose");
   }

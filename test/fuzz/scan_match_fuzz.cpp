@@ -26,7 +26,8 @@ ScanMatch TakeMatch(FuzzInput* input) {
   match.has_odometry = input->Take<bool>();
   match.odom_pose = TakePose2D(input);
   input->Fill(&match.mode, &match.status, &match.candidates, &match.points, &match.matched,
-              &match.window_distance, &match.deviation_distance, &match.degenerate_direction);
+              &match.window_distance, &match.deviation_distance, &match.degenerate_direction,
+              &match.sweep_correction_x, &match.edge_correction_yaw);
   for (double& value : match.covariance) value = input->Take<double>();
   return match;
 }

@@ -57,6 +57,8 @@ TEST(HostileMatch, IsRefused) {
   EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->motion.theta = kNan; }), "");
   EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->covariance[4] = kNan; }), "");
   EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->sweep_correction_yaw = kNan; }), "");
+  EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->edge_correction_x = kNan; }), "");
+  EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->edge_correction_y = 1e300; }), "");
   EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->mode = 99; }), "");
   EXPECT_NE(RefusalOf(GoodMatch(), [](ScanMatch* m) { m->edge_uses = {2}; }), "");
   EXPECT_NE(RefusalOf(GoodMatch(),

@@ -7,7 +7,7 @@ Keyframe MakeKeyframe(const FusedModel& model, const MatchedMotion& match,
   Keyframe keyframe;
   keyframe.stamp = model.stamp;
   keyframe.laser = model.base_from_laser.translation();
-  keyframe.edges = CorrectSweep(model.edges, match.sweep_correction);
+  keyframe.edges = CorrectSweep(model.edges, match.edge_correction);
   const std::vector<SurfacePoint> points =
       CorrectSweep(EstimateSurface(model, options.surface, options.noise), match.sweep_correction);
   const SurfacePoint* last = nullptr;

@@ -67,6 +67,7 @@ MatchedMotion BoundedIcp::Match(const FusedModel& model) {
     match.status = StatusOf(outcome);
     match.deviation = outcome.deviation;
     match.sweep_correction = outcome.sweep_correction;
+    match.edge_correction = outcome.edge_correction;
     match.e = outcome.e;
     match.rms = outcome.rms;
     match.candidates = outcome.candidates;

@@ -155,6 +155,7 @@ MatchOutcome LocalMapMatcher::Match(const FusedModel& model, const Pose2& map_fr
   const Refinement& refined = alignment.refined;
   MatchOutcome outcome;
   outcome.sweep_correction = alignment.sweep_correction;
+  outcome.edge_correction = alignment.edge_correction;
   outcome.e = alignment.found.e;
   outcome.rms = refined.rms;
   outcome.candidates = alignment.found.candidates;

@@ -14,6 +14,7 @@ struct MatchOutcome {
   ArcCoordinates deviation;                              ///< from the predicted motion
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of (forward, left, turn) [m, m, rad]
   Velocity2 sweep_correction;  ///< to be added to the velocity that the sweep was corrected with
+  Velocity2 edge_correction;   ///< to that of the edges between image and scan
   double e = 0.0;      ///< eq. 4: mean distance between the models at the best candidate [m]
   double rms = 0.0;    ///< residual after the refinement [m]
   int candidates = 0;  ///< motions tried

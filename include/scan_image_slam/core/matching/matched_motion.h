@@ -71,6 +71,7 @@ struct MatchedMotion {
   std::vector<EdgeMatch> edges;  ///< of the model, in its order; empty: not looked at
   double degenerate_direction = 0.0;    ///< in the base frame, if status is kDegenerate [rad]
   Velocity2 sweep_correction;           ///< what the encoders were wrong by while the laser turned
+  Velocity2 edge_correction;            ///< and since the last scan, so between image and scan
   std::optional<Pose2> odom_from_base;  ///< what the encoders say at the stamp
 
   Pose2 start_from_base() const { return start_from_reference * motion; }
