@@ -61,8 +61,12 @@ class Fit {
     return false;
   }
 
-  /// True if the profile tells more of the first column than was known before.
-  bool Sees() const { return FirstVariance() < 0.5 * kColumnStddev * kColumnStddev; }
+  /// True if the profile tells more of the first column than was known before. Where two steps are
+  /// in one column their heights can be anything, and rounding makes any variance, also below zero.
+  bool Sees() const {
+    const double variance = FirstVariance();
+    return variance > 0.0 && variance < 0.5 * kColumnStddev * kColumnStddev;
+  }
 
   StepFit First() const {
     const int size = static_cast<int>(profile_.levels.size());

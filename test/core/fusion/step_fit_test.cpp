@@ -113,6 +113,24 @@ TEST(FitFirstStep, IsAsWrongAsItSays) {
   EXPECT_LT(squares, 1.3 * said);
 }
 
+/// Two steps in one column can have any heights that together make the one that is seen.
+TEST(FitFirstStep, KnowsItsUncertaintyIfAnotherIsSaidToBeInItsColumn) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0.0, 2.0);
+  int fitted = 0;
+  for (int i = 0; i < 2000; ++i) {
+    GreyProfile profile = Blurred({{7.3, 60.0}}, 0.35);
+    profile.stddev = 1.0;
+    for (double& level : profile.levels) level += noise(random);
+    const auto step = FitFirstStep(profile, {7.3, 7.3 + 1e-4 * i});
+    if (!step) continue;
+    ++fitted;
+    ASSERT_TRUE(std::isfinite(step->column)) << i;
+    ASSERT_TRUE(std::isfinite(step->stddev)) << i;
+  }
+  EXPECT_GT(fitted, 0);
+}
+
 TEST(FitFirstStep, SaysNothingWithoutAStepOrOfTooFewLevels) {
   EXPECT_FALSE(FitFirstStep(Blurred({{7.2, 60.0}}), {}));
   EXPECT_FALSE(FitFirstStep({0, {1.0, 1.0, 9.0, 9.0}, 0.5}, {1.5}));
