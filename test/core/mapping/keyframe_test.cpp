@@ -5,7 +5,8 @@
 namespace scan_image_slam {
 namespace {
 
-/// Encoders are wrong by one velocity between image and scan, and by another while the laser turned.
+/// Encoders are wrong by one velocity between image and scan, and by another while the laser
+/// turned.
 TEST(MakeKeyframe, TurnsItsEdgesAsTheMatchHasFound) {
   FusedModel model;
   ModelEdge edge;
