@@ -125,11 +125,11 @@ void PoseFilter::AddScan(const Pose2& map_from_base, const Eigen::Matrix3d& info
   }
 }
 
-bool PoseFilter::Contradicts(const std::vector<ModelEdge>& edges) const {
+bool PoseFilter::Contradicts(const std::vector<ModelEdge>& edges, double slip) const {
   int known = 0;
   int off = 0;
   for (const ModelEdge& edge : edges) {
-    const int track = Nearest(edge, options_.edges.gate);
+    const int track = Nearest(edge, options_.edges.gate + slip);
     if (track < 0) continue;
     const Sight sight = SightOf(edge, track);
     ++known;
@@ -138,14 +138,14 @@ bool PoseFilter::Contradicts(const std::vector<ModelEdge>& edges) const {
   return known >= 2 && 2 * off > known;
 }
 
-std::vector<EdgeMatch> PoseFilter::AddEdges(const std::vector<ModelEdge>& edges) {
+std::vector<EdgeMatch> PoseFilter::AddEdges(const std::vector<ModelEdge>& edges, double slip) {
   std::vector<EdgeMatch> matches(edges.size());
   if (!edges.empty()) BeginImage(edges.front().time_offset);
   // All are assigned before the first moves the pose.
   std::vector<std::pair<std::size_t, int>> known;
   std::vector<const ModelEdge*> unknown;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const int track = Nearest(edges[i], options_.edges.gate);
+    const int track = Nearest(edges[i], options_.edges.gate + slip);
     if (track >= 0) {
       known.emplace_back(i, track);
     } else if (Nearest(edges[i], options_.edges.min_separation) < 0) {

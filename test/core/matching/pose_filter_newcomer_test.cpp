@@ -30,13 +30,13 @@ TEST(PoseFilter, AnEdgeBeginsWithTheImageAfterTheOneThatShowsItNearEnough) {
   filter.AddEdges({SlantedEdge(11.0)});
   filter.AddEdges({SlantedEdge(11.0)});
   EXPECT_EQ(filter.edges(), 0);
-  filter.AddEdges({SlantedEdge(9.0, -0.01)});
+  filter.AddEdges({SlantedEdge(9.0, -0.002)});
   EXPECT_EQ(filter.edges(), 0);
-  filter.AddEdges({SlantedEdge(11.0, 0.01)});
+  filter.AddEdges({SlantedEdge(11.0, 0.002)});
   EXPECT_EQ(filter.edges(), 1);
-  // It lies where the second image shows it: there it is no surprise, 0.02 rad aside it is one.
-  EXPECT_FALSE(filter.Contradicts({SlantedEdge(11.0, 0.01), SlantedEdge(11.0, 0.01)}));
-  EXPECT_TRUE(filter.Contradicts({SlantedEdge(9.0, -0.01), SlantedEdge(9.0, -0.01)}));
+  // It lies where the second image shows it: there it is no surprise, 0.004 rad aside it is one.
+  EXPECT_FALSE(filter.Contradicts({SlantedEdge(11.0, 0.002), SlantedEdge(11.0, 0.002)}, 0.0));
+  EXPECT_TRUE(filter.Contradicts({SlantedEdge(9.0, -0.002), SlantedEdge(9.0, -0.002)}, 0.0));
 }
 
 TEST(PoseFilter, AnEdgeThatIsNotSeenAgainIsNotWaitedFor) {

@@ -15,7 +15,8 @@
 namespace scan_image_slam {
 
 struct PoseFilterOptions {
-  EdgeMapOptions edges;
+  /// From image to image an edge is off by less than from visit to visit.
+  EdgeMapOptions edges = {/*gate=*/0.05};
   double max_new_slant = 17.0;    ///< of an edge to begin with: wall per angle of the view [m/rad]
   double edge_correlation = 4.0;  ///< see RefinementOptions [-]
   double edge_bias = 0.5;         ///< part of an edge's deviation that lasts while it is seen [-]
@@ -66,12 +67,12 @@ class PoseFilter {
                const Eigen::Vector3d& gradient);
 
   /// True if most of the edges that are known are not where they should be, though near: the
-  /// prediction is wrong by more than it says.
-  bool Contradicts(const std::vector<ModelEdge>& edges) const;
+  /// prediction is wrong by more than it says, if by no more than `slip` [m].
+  bool Contradicts(const std::vector<ModelEdge>& edges, double slip) const;
 
   /// Takes what an image tells, and begins edges that were near enough in an image before. Returns
-  /// what became of each.
-  std::vector<EdgeMatch> AddEdges(const std::vector<ModelEdge>& edges);
+  /// what became of each. Known ones may be off by the gate and by `slip` [m].
+  std::vector<EdgeMatch> AddEdges(const std::vector<ModelEdge>& edges, double slip = 0.0);
 
   const Pose2& map_from_base() const { return map_from_base_; }
   /// Of (forward, left, turn) in the frame of the base [m, m, rad].
