@@ -1,21 +1,11 @@
 #include "scan_image_slam/ros/slam_messages.h"
 
+#include "support_same.h"
+
 #include <gtest/gtest.h>
 
 namespace scan_image_slam {
 namespace {
-
-void ExpectSame(const Velocity2& a, const Velocity2& b) {
-  EXPECT_EQ(a.x, b.x);
-  EXPECT_EQ(a.y, b.y);
-  EXPECT_EQ(a.theta, b.theta);
-}
-
-void ExpectSame(const Pose2& a, const Pose2& b) {
-  EXPECT_EQ(a.x, b.x);
-  EXPECT_EQ(a.y, b.y);
-  EXPECT_EQ(a.theta, b.theta);
-}
 
 /// Every number of its own, so that none can take another's place.
 TEST(ScanMatch, ArrivesAsItWasSent) {

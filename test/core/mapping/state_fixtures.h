@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scan_image_slam/core/mapping/map_state.h"
+#include "support_same.h"
 
 #include <memory>
 
@@ -82,12 +83,6 @@ class DistinctNumbers {
 
   double next_ = 0.0;
 };
-
-inline void ExpectSame(const Pose2& a, const Pose2& b) {
-  EXPECT_EQ(a.x, b.x);
-  EXPECT_EQ(a.y, b.y);
-  EXPECT_EQ(a.theta, b.theta);
-}
 
 inline void ExpectSame(const ModelEdge& a, const ModelEdge& b) {
   EXPECT_EQ(a.camera, b.camera);
