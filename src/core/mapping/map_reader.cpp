@@ -23,6 +23,15 @@ std::int8_t Occupancy(std::uint8_t grey, const Thresholds& thresholds) {
   return static_cast<std::int8_t>(probability < thresholds.free ? 0 : -1);
 }
 
+/// The grey picture; empty if it can't be read, e.g. as it claims to be larger than OpenCV allows.
+cv::Mat ReadGrey(const std::string& path) {
+  try {
+    return cv::imread(path, cv::IMREAD_GRAYSCALE);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 MapImage ReadMap(const std::string& yaml_file) {
@@ -41,7 +50,7 @@ MapImage ReadMap(const std::string& yaml_file) {
   yaml.Choice("mode", {"trinary", "scale"}, 0);  // they differ in what is neither wall nor free
 
   const std::string path = (std::filesystem::path(yaml_file).parent_path() / image).string();
-  const cv::Mat pixels = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  const cv::Mat pixels = ReadGrey(path);
   if (pixels.empty()) yaml.Fail("image", "can't read the picture " + path);
   map.width = pixels.cols;
   map.height = pixels.rows;

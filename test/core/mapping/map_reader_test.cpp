@@ -94,5 +94,11 @@ TEST_F(MapReader, NamesTheFileThatIsNotThere) {
   EXPECT_NE(error.find(folder_.File("none.png")), std::string::npos) << error;
 }
 
+TEST_F(MapReader, RefusesPicturesThatClaimToBeHuge) {
+  folder_.Write("huge.pgm", "P5\n3 2999999\n255\n0");
+  const std::string error = ErrorOf(Write(Replaced("room.png", "huge.pgm")));
+  EXPECT_NE(error.find(folder_.File("huge.pgm")), std::string::npos) << error;
+}
+
 }  // namespace
 }  // namespace scan_image_slam
