@@ -46,12 +46,13 @@ GraphWays::Step GraphWays::At(int node) const {
   return found == steps_.end() ? Step() : found->second;
 }
 
-Eigen::Matrix3d GraphWays::Covariance(const std::vector<GraphConstraint>& constraints,
-                                      int to) const {
+Eigen::Matrix3d GraphWays::Covariance(const std::vector<GraphConstraint>& constraints, int to,
+                                      const Eigen::Matrix3d& drift) const {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (int node = to; At(node).before >= 0; node = At(node).before) {
     const GraphConstraint& constraint = constraints[At(node).constraint];
-    const Eigen::Matrix3d step = CovarianceOf(constraint);
+    const double way = At(node).length - At(At(node).before).length;
+    const Eigen::Matrix3d step = CovarianceOf(constraint) + way * drift;
     if (constraint.from == node) {
       covariance = TransportCovariance(covariance, constraint.from_from_to) + step;
     } else {

@@ -219,18 +219,18 @@ std::optional<GraphConstraint> LoopCloser::Close(int id, int submap_id, int near
             : FindInSubmap(MakeQuery(id, options_.query_way), &submap, {expected, half, half_angle},
                            options_.matcher);
   if (!match) return std::nullopt;
+  const Eigen::Matrix3d drift = DiagonalCovariance(options_.unseen_drift, options_.unseen_turn);
   if (!track && Deviation(expected.Inverse() * match->submap_from_base,
-                          ways.Covariance(constraints_, near_id)) > options_.max_deviation) {
+                          ways.Covariance(constraints_, near_id, drift)) > options_.max_deviation) {
     return std::nullopt;
   }
-  const double s = options_.closure_distance_stddev;
-  const double a = options_.closure_angle_stddev;
   GraphConstraint closure;
   closure.from = near_id;
   closure.to = id;
   closure.from_from_to = submap_from_near.Inverse() * match->submap_from_base;
-  closure.information =
-      WithNoise(match->information, Eigen::Vector3d(s * s, s * s, a * a).asDiagonal());
+  closure.information = WithNoise(
+      match->information,
+      DiagonalCovariance(options_.closure_distance_stddev, options_.closure_angle_stddev));
   closure.robust = true;
   closure.overlap = match->overlap;
   return closure;

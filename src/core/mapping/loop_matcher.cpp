@@ -1,5 +1,7 @@
 #include "scan_image_slam/core/mapping/loop_matcher.h"
 
+#include "scan_image_slam/core/geometry/covariance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -97,11 +99,9 @@ double ShareBehindWalls(const LoopQuery& query, const Submap& submap,
 
 LoopMatch RefineInSubmap(const LoopQuery& query, const Submap& submap,
                          const Pose2& submap_from_base, const LoopMatcherOptions& options) {
-  const double s = options.prior_distance;
-  const double a = options.prior_angle;
   MotionPrior prior;
   prior.map_from_base = submap_from_base;
-  prior.covariance = Eigen::Vector3d(s * s, s * s, a * a).asDiagonal();
+  prior.covariance = DiagonalCovariance(options.prior_distance, options.prior_angle);
   prior.kernel = 3.0;
   const EdgeEvidence evidence{query.edges, submap.edge_map()};
   const Refinement refined = Refine(query.points, submap.local_map(), options.noise, prior,

@@ -29,8 +29,7 @@ bool IsReliable(MatchStatus status) {
 Eigen::Matrix3d UnjoinedCovariance() {
   constexpr double kDistance = 1.0;  // [m]
   constexpr double kAngle = 0.3;     // [rad]
-  return Eigen::Vector3d(kDistance * kDistance, kDistance * kDistance, kAngle * kAngle)
-      .asDiagonal();
+  return DiagonalCovariance(kDistance, kAngle);
 }
 
 /// What a covariance has grown by over a motion, as far as it has.
@@ -164,9 +163,8 @@ std::shared_ptr<const Keyframe> Mapper::Keep(const FusedModel& model, const Matc
     way_ += keyframe->joined ? keyframe->previous_from_base.translation().norm() : kUnknownWay;
   }
   keyframe->way = way_;
-  const double s = options_.keyframe_distance_stddev;
-  const double a = options_.keyframe_angle_stddev;
-  keyframe->covariance = Eigen::Vector3d(s * s, s * s, a * a).asDiagonal();
+  keyframe->covariance =
+      DiagonalCovariance(options_.keyframe_distance_stddev, options_.keyframe_angle_stddev);
   if (keyframe->joined) {
     keyframe->covariance +=
         Growth(kept_covariance_, match.covariance, keyframe->previous_from_base);

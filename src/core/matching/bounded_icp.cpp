@@ -65,16 +65,7 @@ MatchedMotion BoundedIcp::Match(const FusedModel& model) {
                                      : frame_matcher_.Match(model, prediction);
     const Pose2 motion = prediction.motion * FromArcCoordinates(outcome.deviation);
     match.status = StatusOf(outcome);
-    match.deviation = outcome.deviation;
-    match.sweep_correction = outcome.sweep_correction;
-    match.edge_correction = outcome.edge_correction;
-    match.e = outcome.e;
-    match.rms = outcome.rms;
-    match.candidates = outcome.candidates;
-    match.points = outcome.points;
-    match.matched = outcome.matched;
-    match.edges = outcome.edges;
-    match.degenerate_direction = outcome.degenerate_direction;
+    static_cast<MatchEvidence&>(match) = outcome;
     // From frame to frame errors add up; against the map they do not.
     covariance_ = use_local_map ? outcome.covariance
                                 : TransportCovariance(covariance_, motion) + outcome.covariance;

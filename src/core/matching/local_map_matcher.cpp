@@ -257,10 +257,8 @@ std::vector<EdgeMatch> LocalMapMatcher::Filter(const Alignment& alignment,
   for (std::size_t i = 0; i < edges.size(); ++i) edges[i].id = static_cast<int>(i);
   edges = WithoutWalkers(std::move(edges), alignment.points, scan.map_from_base);
   const std::vector<ModelEdge> distinct = DistinctEdges(edges, options_.filter.edges);
-  const double farthest = prediction.window.half_distance;
-  const bool slipped = scan.weak && filter_.Contradicts(distinct, farthest);
-  if (slipped) filter_.DoubtWay(farthest / 3.0);
-  const std::vector<EdgeMatch> of_distinct = filter_.AddEdges(distinct, slipped ? farthest : 0.0);
+  const std::vector<EdgeMatch> of_distinct =
+      filter_.AddEdges(distinct, scan.weak ? prediction.window.half_distance : 0.0);
   if (CountMatched(of_distinct) > 0) way_at_edges_ = way_;
   for (std::size_t i = 0; i < distinct.size(); ++i) matches[distinct[i].id] = of_distinct[i];
   return matches;

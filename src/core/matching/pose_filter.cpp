@@ -84,11 +84,6 @@ void PoseFilter::Predict(const Pose2& map_from_last, const MotionPrediction& pre
   ForgetOld();
 }
 
-void PoseFilter::DoubtWay(double stddev) {
-  const Eigen::Vector2d along = Direction(map_from_base_.theta);
-  covariance_.topLeftCorner<2, 2>() += stddev * stddev * along * along.transpose();
-}
-
 void PoseFilter::Anchor() {
   const Eigen::Vector2d along = LeastKnownDirection();
   const Eigen::Matrix2d project = along * along.transpose();
@@ -138,14 +133,24 @@ bool PoseFilter::Contradicts(const std::vector<ModelEdge>& edges, double slip) c
   return known >= 2 && 2 * off > known;
 }
 
-std::vector<EdgeMatch> PoseFilter::AddEdges(const std::vector<ModelEdge>& edges, double slip) {
+/// The way along is uncertain by so much more [m].
+void PoseFilter::DoubtWay(double stddev) {
+  const Eigen::Vector2d along = Direction(map_from_base_.theta);
+  covariance_.topLeftCorner<2, 2>() += stddev * stddev * along * along.transpose();
+}
+
+std::vector<EdgeMatch> PoseFilter::AddEdges(const std::vector<ModelEdge>& edges,
+                                            double farthest_slip) {
+  const bool slipped = farthest_slip > 0.0 && Contradicts(edges, farthest_slip);
+  if (slipped) DoubtWay(farthest_slip / 3.0);
+  const double reach = options_.edges.gate + (slipped ? farthest_slip : 0.0);
   std::vector<EdgeMatch> matches(edges.size());
   if (!edges.empty()) BeginImage(edges.front().time_offset);
   // All are assigned before the first moves the pose.
   std::vector<std::pair<std::size_t, int>> known;
   std::vector<const ModelEdge*> unknown;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const int track = Nearest(edges[i], options_.edges.gate + slip);
+    const int track = Nearest(edges[i], reach);
     if (track >= 0) {
       known.emplace_back(i, track);
     } else if (Nearest(edges[i], options_.edges.min_separation) < 0) {

@@ -45,6 +45,18 @@ TEST(GraphWays, AnErrorOfATurnGrowsWithTheWayAfterIt) {
   EXPECT_NEAR(covariance(1, 2), 3 * kTurn, 1e-6);
 }
 
+// So much for each metre, whatever the constraint says: the turns of both motions, as above, and
+// of the first the way of the second.
+TEST(GraphWays, DriftGrowsWithTheWay) {
+  const std::vector<GraphConstraint> chain = {Motion(0, 1, {3, 0, 0}), Motion(1, 2, {2, 0, 0})};
+  const Eigen::Matrix3d drift = Eigen::Vector3d(0.1, 0.2, 0.3).asDiagonal();
+  const GraphWays ways(LinksOf(chain, {3.0, 2.0}), 2, {0});
+  const Eigen::Matrix3d added = ways.Covariance(chain, 0, drift) - ways.Covariance(chain, 0);
+  EXPECT_NEAR(added(0, 0), 5.0 * 0.1, 1e-9);
+  EXPECT_NEAR(added(1, 1), 5.0 * 0.2 + 4.0 * 3.0 * 0.3, 1e-9);
+  EXPECT_NEAR(added(2, 2), 5.0 * 0.3, 1e-9);
+}
+
 // Seen from the other end, the first motion back is the second one: its own turn lies at the far
 // end of it, and both motions lie behind the first turn.
 TEST(GraphWays, TheWayBackHasTheErrorsOfTheInverseMotions) {

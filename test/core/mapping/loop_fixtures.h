@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scan_image_slam/core/geometry/covariance.h"
 #include "scan_image_slam/core/mapping/loop_closer.h"
 #include "support_rooms.h"
 
@@ -20,6 +21,9 @@ struct DriftPerKeyframe {
   double distance = 1.0;  ///< factor of the way [-]
   double angle = 0.0;     ///< added to each turn [rad]
 };
+
+/// Of each motion, by its own account: less than steady errors of it add up to.
+inline Eigen::Matrix3d ClaimedOfAMotion() { return DiagonalCovariance(0.003, 0.001); }
 
 inline Keyframe KeyframeAt(const Room& room, const Pose2& room_from_base, int id,
                            double max_range = 12.0) {
@@ -60,7 +64,7 @@ inline DriftingDrive Drive(const Room& room, const std::vector<Eigen::Vector2d>&
       keyframe->previous_from_base = motion;
     }
     keyframe->way = driven;
-    keyframe->covariance = Eigen::Vector3d(1e-4, 1e-4, 1e-5).asDiagonal();
+    keyframe->covariance = ClaimedOfAMotion();
     drive.keyframes.push_back(keyframe);
   }
   return drive;

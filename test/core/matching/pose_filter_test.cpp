@@ -142,9 +142,7 @@ class CorridorDrive {
         PutOnWall(y, truth, &edges.back());
       }
     }
-    const bool slipped = filter_->Contradicts(edges, kFarthestSlip);
-    if (slipped) filter_->DoubtWay(kFarthestSlip);
-    filter_->AddEdges(edges, slipped ? kFarthestSlip : 0.0);
+    filter_->AddEdges(edges, kFarthestSlip);
   }
 
  private:

@@ -21,4 +21,10 @@ inline Eigen::Matrix3d TransportCovariance(const Eigen::Matrix3d& covariance, co
   return adjoint * covariance * adjoint.transpose();
 }
 
+/// Of errors that are independent of one another, by their standard deviations [m, rad]: forward
+/// and to the left the same.
+inline Eigen::Matrix3d DiagonalCovariance(double distance, double angle) {
+  return Eigen::Vector3d(distance * distance, distance * distance, angle * angle).asDiagonal();
+}
+
 }  // namespace scan_image_slam

@@ -30,8 +30,10 @@ class GraphWays {
   double Length(int to) const { return At(to).length; }
 
   /// Covariance of the pose of `from` in the frame of the target `to` that the constraints along
-  /// the way add up to: (forward, left, turn) of `from` [m, m, rad].
-  Eigen::Matrix3d Covariance(const std::vector<GraphConstraint>& constraints, int to) const;
+  /// the way add up to, and `drift` for each metre of it: (forward, left, turn) of `from`
+  /// [m, m, rad].
+  Eigen::Matrix3d Covariance(const std::vector<GraphConstraint>& constraints, int to,
+                             const Eigen::Matrix3d& drift = Eigen::Matrix3d::Zero()) const;
 
  private:
   /// The last step of the way to a node.

@@ -33,6 +33,9 @@ struct LoopCloserOptions {
   double max_angle = 0.6;                 ///< [rad]
   double max_deviation = 5.0;             ///< of what a search finds from what the graph expects,
                                           ///< in standard deviations [-]
+  double unseen_drift = 0.016;            ///< stddev of what the matching may have drifted over a
+                                          ///< metre and not told, for what the graph expects [m]
+  double unseen_turn = 0.005;             ///< [rad]
   double track_window = 0.5;              ///< smaller windows need no search [m]
   double closure_distance_stddev = 0.02;  ///< of a recognised place, at best [m]
   double closure_angle_stddev = 0.004;    ///< [rad]

@@ -20,11 +20,11 @@ struct MapperOptions {
   double map_update_time_thresh = 1.0;      ///< passed since then [s]
   int max_scans_per_place = 5;              ///< in the map, of half a metre and 45 degrees
   KeyframeOptions keyframe;
-  double keyframe_distance = 0.4;          ///< driven since the last keyframe [m]
-  double keyframe_angle = 0.4;             ///< turned since then [rad]
-  double keyframe_distance_stddev = 0.01;  ///< of the motion between two keyframes, at best [m]
-  double keyframe_angle_stddev = 0.003;    ///< [rad]
-  int max_trajectory_poses = 20000;        ///< a trajectory of more is thinned to half
+  double keyframe_distance = 0.4;           ///< driven since the last keyframe [m]
+  double keyframe_angle = 0.4;              ///< turned since then [rad]
+  double keyframe_distance_stddev = 0.003;  ///< of the motion between two keyframes, at best [m]
+  double keyframe_angle_stddev = 0.001;     ///< [rad]
+  int max_trajectory_poses = 20000;         ///< a trajectory of more is thinned to half
   /// Throws std::invalid_argument, naming the field, if a value is out of range.
   void Validate() const;
 };

@@ -1,12 +1,11 @@
 #pragma once
 
 #include "scan_image_slam/core/geometry/pose2.h"
-#include "scan_image_slam/core/matching/edge_match.h"
+#include "scan_image_slam/core/matching/match_outcome.h"
 #include "scan_image_slam/core/matching/search_window.h"
 #include "scan_image_slam/core/sensor/stamp.h"
 
 #include <optional>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -51,7 +50,7 @@ enum class MatchStatus {
 };
 
 /// The motion of the base from a reference scan to this one, and the evidence for it.
-struct MatchedMotion {
+struct MatchedMotion : MatchEvidence {
   Stamp stamp = 0;             ///< time of this scan [ns]
   Stamp start_stamp = 0;       ///< time of the first scan: another value is another chain [ns]
   Stamp reference_stamp = 0;   ///< time of the reference scan [ns]
@@ -61,17 +60,7 @@ struct MatchedMotion {
                                                          ///< since the last scan [m, m, rad]
   MatchMode mode = MatchMode::kNoCamera;
   MatchStatus status = MatchStatus::kFirst;
-  SearchWindow window;           ///< D and Phi
-  ArcCoordinates deviation;      ///< of the result from the predicted motion
-  double e = 0.0;                ///< mean distance between the models at the best candidate [m]
-  double rms = 0.0;              ///< residual across the walls after refinement [m]
-  int candidates = 0;            ///< motions tried
-  int points = 0;                ///< hits of the scan
-  int matched = 0;               ///< hits that found a counterpart
-  std::vector<EdgeMatch> edges;  ///< of the model, in its order; empty: not looked at
-  double degenerate_direction = 0.0;    ///< in the base frame, if status is kDegenerate [rad]
-  Velocity2 sweep_correction;           ///< what the encoders were wrong by while the laser turned
-  Velocity2 edge_correction;            ///< and since the last scan, so between image and scan
+  SearchWindow window;                  ///< D and Phi
   std::optional<Pose2> odom_from_base;  ///< what the encoders say at the stamp
 
   Pose2 start_from_base() const { return start_from_reference * motion; }

@@ -52,9 +52,6 @@ class PoseFilter {
   void Predict(const Pose2& map_from_last, const MotionPrediction& prediction,
                const Eigen::Matrix3d& covariance);
 
-  /// The wheels have slipped: the way along is uncertain by so much more [m].
-  void DoubtWay(double stddev);
-
   /// Walls come into view that tell of a direction of which nothing has told. They enter the map at
   /// the pose of now and are off as it is: from here on the way in the least known direction is
   /// measured from this place, and how far it may be off is kept apart.
@@ -71,8 +68,9 @@ class PoseFilter {
   bool Contradicts(const std::vector<ModelEdge>& edges, double slip) const;
 
   /// Takes what an image tells, and begins edges that were near enough in an image before. Returns
-  /// what became of each. Known ones may be off by the gate and by `slip` [m].
-  std::vector<EdgeMatch> AddEdges(const std::vector<ModelEdge>& edges, double slip = 0.0);
+  /// what became of each. Known ones are looked for within the gate; if most contradict the
+  /// prediction, wheels have slipped, by at most `farthest_slip` [m], and within as much more.
+  std::vector<EdgeMatch> AddEdges(const std::vector<ModelEdge>& edges, double farthest_slip = 0.0);
 
   const Pose2& map_from_base() const { return map_from_base_; }
   /// Of (forward, left, turn) in the frame of the base [m, m, rad].
@@ -117,6 +115,7 @@ class PoseFilter {
   Sight SightOf(const ModelEdge& edge, int track) const;
   double VarianceOf(const Sight& sight) const;
   void Update(double innovation, double variance, const Eigen::VectorXd& jacobian);
+  void DoubtWay(double stddev);
   void BeginImage(double time_offset);
   void Welcome(const std::vector<const ModelEdge*>& unknown);
   void Begin(const ModelEdge& edge);
